@@ -1,10 +1,10 @@
 """The layout of a flow chart: boxes along a vertical spine, jumps in lanes on both sides, and pages.
 
-The layout depends only on the control flow.  Boxes are in the order of the cards.  The exits of an IF have fixed
-sides: minus left, zero down, plus right.  An unconditional jump turns right if it goes forward and left if it goes
-back.  All jumps that arrive at a box on the same side share a *rail*, a vertical line in a lane.  Rails are nested by
-length with the shortest next to the boxes.  A jump to another page, or a jump without a free lane, is drawn as a pair
-of connectors with the number of the target statement.  Lengths are in pixels, and y increases downward.
+The layout depends only on the control flow. The boxes are in the order of the cards. The three exits of an IF have
+fixed sides: minus is left, zero is down, and plus is right. An unconditional jump turns right if it goes forward and
+left if it goes back. All jumps that arrive at a box on the same side share a *rail*, a vertical line in a lane. A
+shorter rail is nearer to the boxes. A jump to another page, or a jump without a free lane, is drawn as a pair of
+connectors with the number of the target statement. Lengths are in pixels, and y increases downward.
 """
 
 from collections.abc import Sequence
@@ -15,7 +15,7 @@ from modern.publication.flow import Box, Flow
 
 # The width of every box; a decision has this width at its middle.
 BOX = 244
-# The space between a box and the first lane, for the conditions of exits and for connectors.
+# The width of the space between a box and the first lane, which holds the conditions of exits and the connectors.
 ZONE = 38
 LANE = 11
 LANES = 8
@@ -34,7 +34,7 @@ Where = Literal["left", "right"]
 
 @dataclass(frozen=True, slots=True)
 class Placed:
-    """A box on a page: its index in the flow, its top and height, and its text broken into lines."""
+    """A box on a page. ``box`` is its index in the flow, and ``lines`` is its text broken into lines."""
 
     box: int
     top: int
@@ -52,7 +52,11 @@ class Placed:
 
 @dataclass(frozen=True, slots=True)
 class Path:
-    """The line that leaves exit ``way`` of a box: its corners, and the centre of the connector at its end, if any."""
+    """The line that leaves an exit of a box.
+
+    ``way`` is the index of the exit among those of the box. ``connector`` is the centre of the connector in which the
+    line ends, or None if the line leads to a box.
+    """
 
     box: int
     way: int
@@ -62,7 +66,7 @@ class Path:
 
 @dataclass(frozen=True, slots=True)
 class Landing:
-    """A connector from which a line leads to a box of the flow chart: its centre, and the corners of the line."""
+    """A connector from which a line leads to a box. ``corners`` are those of the line."""
 
     box: int
     centre: tuple[int, int]
@@ -71,7 +75,9 @@ class Landing:
 
 @dataclass(frozen=True, slots=True)
 class Page:
-    """A page: its boxes, the lines of their exits, and the connectors through which other exits arrive."""
+    """A page: its boxes, the lines that leave their exits, and the connectors through which jumps from elsewhere
+    arrive.
+    """
 
     height: int
     boxes: tuple[Placed, ...]
@@ -88,15 +94,15 @@ class Chart:
 
 
 def chart(flow: Flow, height: int = 860) -> Chart:
-    """Lay out a flow on pages of at most ``height`` pixels; a taller box gets a separate page.
+    """Lay out a flow on pages of at most ``height`` pixels. A box that is taller than a page gets a page of its own.
 
-    The default fits on a sheet of paper with letters of 6.7 points.
+    A page of the default height fits on a sheet of paper if its letters have a size of 6.7 points.
     """
     return Chart(flow, tuple(_page(flow, first, last) for first, last in _breaks(flow, height)))
 
 
 def sheets_of(chart: Chart) -> dict[int, int]:
-    """Return the number of the page, counted from 1, on which each card is drawn."""
+    """Return, for each card, the number of the page that shows it, counted from 1."""
     return {
         card: number
         for number, page in enumerate(chart.pages, 1)
@@ -130,9 +136,9 @@ def _size(box: Box) -> tuple[int, tuple[str, ...]]:
 
 
 def _breaks(flow: Flow, height: int) -> list[tuple[int, int]]:
-    """Divide the boxes into pages: return the first box of each page and the box after the last one.
+    """Divide the boxes into pages. Return the first box of each page and the box after its last box.
 
-    The breaks minimise the number of jumps between pages plus ten for each page (dynamic programming).
+    The breaks minimise a cost by dynamic programming: ten for each page, and one for each jump between two pages.
     """
     count = len(flow.boxes)
     sizes = [_size(box)[0] + _ARROW + _DOWN for box in flow.boxes]
@@ -164,7 +170,9 @@ def _breaks(flow: Flow, height: int) -> list[tuple[int, int]]:
 
 @dataclass(frozen=True, slots=True)
 class _Rail:
-    """The vertical line shared by all jumps to a box on one side, with the first and last box that it passes."""
+    """The vertical line that all jumps to a box share on one side, with the first and the last box that the line
+    passes.
+    """
 
     target: int
     side: Where
@@ -176,9 +184,9 @@ class _Rail:
 class _Plan:
     """The layout of a page before its lines are drawn.
 
-    ``lanes`` has the lane of each rail by target and side; ``landed`` are the boxes that connectors lead to.  For each
-    box, ``turns``, ``lands`` and ``joins`` have the vertical coordinate of the turn below the box, of the connector
-    that leads to it, and of the end of its rails.
+    ``lanes`` has the lane of each rail by target and side, and ``landed`` the boxes to which connectors lead. The lists
+    have a vertical coordinate for each box: ``turns`` that of the turn below the box, ``lands`` that of the connector
+    above it, and ``joins`` that of the end of its rails.
     """
 
     height: int
@@ -195,7 +203,7 @@ def _plan(flow: Flow, inside: range) -> _Plan:
     landed = [
         target
         for target in inside
-        if not all(place in inside and _joined(flow, inside, lanes, place, k) for place, k in flow.arrivals(target))
+        if not all(place in inside and _joined(flow, inside, lanes, place, k) for place, k in flow.arrivals[target])
     ]
     placed, turns, lands, joins = _stack(flow, inside, set(landed), {target for target, _ in lanes})
     height = placed[-1].bottom + _TURN + RADIUS + MARGIN
@@ -236,7 +244,7 @@ def _page(flow: Flow, first: int, end: int) -> Page:
 
 
 def _side(flow: Flow, place: int, k: int) -> Where:
-    """Return the side of the boxes on which the line of an exit runs, if it does not go straight down."""
+    """Return the side on which the line of an exit passes other boxes."""
     way = flow.boxes[place].exits[k]
     if way.side != "down":
         return way.side
@@ -266,9 +274,9 @@ def _rails(flow: Flow, inside: range) -> list[_Rail]:
 
 
 def _lanes(rails: Sequence[_Rail]) -> dict[tuple[int, Where], int]:
-    """Assign each rail (the vertical line that jumps to one target share) to a lane, the shortest rail first.
+    """Assign each rail to a lane, the shortest rail first.
 
-    Rails without a free lane are omitted; their lines get connectors.
+    A rail without a free lane is omitted; connectors replace its line.
     """
     taken: dict[tuple[Where, int], list[_Rail]] = {}
     lanes: dict[tuple[int, Where], int] = {}

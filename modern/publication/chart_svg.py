@@ -1,7 +1,7 @@
 """Draw a flow chart as SVG in the symbols of the thesis (p. 60).
 
-The symbols are: direction of flow, decision, input and output, processing, and connector or step.  Text stays text,
-boxes can be links, and nothing depends on colour.
+The thesis has symbols for the direction of flow, a decision, input and output, processing, and a connector or step. The
+picture contains its text as text, and no meaning depends on colour.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -36,7 +36,10 @@ _SLANT = 8  # the horizontal offset of the slanted sides of the symbol for input
 
 
 def chart_svg(chart: Chart, page: int | None = None, link: Link | None = None) -> str:
-    """Draw one page of a chart, counted from 1, or all pages in a column.  Raise IndexError for a wrong page."""
+    """Draw one page of a chart, counted from 1, or all pages below each other. Raise IndexError for a wrong page.
+
+    ``link`` returns the address to which a box links.
+    """
     if page is not None and not 1 <= page <= len(chart.pages):
         raise IndexError(page)
     pages = chart.pages if page is None else chart.pages[page - 1 : page]
@@ -68,13 +71,13 @@ def chart_svg(chart: Chart, page: int | None = None, link: Link | None = None) -
 
 
 def _extent(chart: Chart) -> tuple[int, int]:
-    """Return the left and right edges of the pages, which are as wide as the page with the most lanes."""
+    """Return the left and the right edge of all pages, which are as wide as the page with the most lanes needs."""
     edges = [x for page in chart.pages for path in page.paths for x, _ in path.corners] + [LEFT - ZONE, RIGHT + ZONE]
     return min(edges) - MARGIN, max(edges) + MARGIN
 
 
 def _short(box: Box) -> str:
-    """Return the text in a connector to a box: the box's statement number, or ``c`` and a card number."""
+    """Return the text in a connector to a box: the number of its statement, or ``c`` and the number of its card."""
     return box.label or f"c{box.cards[0]}"
 
 
@@ -143,7 +146,7 @@ def _outline(*corners: tuple[int, int]) -> str:
 
 
 def _taken(box: Box, path: Path, middle: int) -> Iterator[str]:
-    """Yield the text of an exit's condition next to the start of its line."""
+    """Yield the condition of an exit as a text next to the start of its line."""
     way = box.exits[path.way]
     if not way.taken:
         return

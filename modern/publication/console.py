@@ -1,9 +1,9 @@
-"""The emulator in the browser: the HTML of its two pages, and the one file that both load.
+"""The emulator in the browser: the HTML of its two pages, and the file with Python and the project that both load.
 
-The HTML and the worker are in ``docs/console``, the scripts in ``docs/_static``.  Python for the browser is the npm
-package ``pyodide``, which ``docs/console/package-lock.json`` pins.  The project itself is loaded from its wheel, lark
-and mpmath from the installed packages.  ``docs/console/compile.mjs`` compiles all modules for that Python.  Without the
-npm package or the wheel, the pages show recorded runs only.
+The frames of the pages and the worker are in ``docs/console``, the scripts in ``docs/_static``. Python for the browser
+is the npm package ``pyodide``, which ``docs/console/package-lock.json`` pins. The project itself is loaded from its
+wheel, lark and mpmath from the installed packages. The script ``docs/console/compile.mjs`` compiles all modules for
+Python in the browser. Without the npm package or the wheel, the pages only show recorded runs.
 """
 
 import base64
@@ -31,10 +31,11 @@ from modern.publication.pyz import EPOCH, files_of
 
 SOURCE = ROOT / "docs" / "console"
 PERIOD = ROOT / "tests" / "data" / "period"
-# The files of the npm package that a page loads unchanged, and its standard library, of which it loads a part.
+# The files of the npm package that a page loads unchanged, and the archive of the standard library, of which it loads a
+# part.
 PYODIDE = ("pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm")
 _LIBRARY, _LOCK = "python_stdlib.zip", "pyodide-lock.json"
-# What no page imports: the first parts of the paths in the standard library and in the packages.
+# Modules and files that no page needs: the beginnings of their paths in the standard library and in the packages.
 _NOT_LOADED = (
     *("tests", "__pyinstaller", "__pycache__", "email", "multiprocessing", "xml", "_pyrepl", "unittest", "http"),
     *("pdb.py", "doctest.py", "tarfile.py", "pydoc.py", "ctypes", "html", "xmlrpc", "wsgiref", "imaplib.py"),
@@ -53,12 +54,13 @@ _NOT_LOADED = (
     *("fortran_src/silent.csv", "fortran_src/README.md", "transcripts/README.md"),
 )
 _ENCODINGS = ("__init__", "aliases", "ascii", "cp437", "latin_1", "utf_8")
-# Seconds of the recorded run on a 1620 between two of its frames, and how much faster than in 1963 it is shown.
+# The seconds on a 1620 between two frames of the recorded run, and the speed at which it is shown, as a multiple of
+# 1963.
 _FRAME, _PACE = 1.0, 10
 
 
 def console_page() -> str:
-    """Return the HTML of the emulator: its desk, a recorded run, and programs in the style of the period."""
+    """Return the HTML of the emulator's page, with a recorded run and programs in the style of the period."""
     about = {
         name: [[b.title, b.cards[0], b.cards[-1], b.text] for b in commentary(name).blocks] for name in programs.NAMES
     }
@@ -67,14 +69,14 @@ def console_page() -> str:
 
 
 def parting_page() -> str:
-    """Return the HTML of the page that compares the programs with exact arithmetic, with one result."""
+    """Return the HTML of the page that compares the programs with exact arithmetic. It already shows one result."""
     sets = point_sets()
     first = next(iter(sets.values()))
     return _filled("parting.html", POINTS=html.escape(first), SETS=_json(sets), FIRST=_json(parted(first)))
 
 
 def point_sets() -> dict[str, str]:
-    """Return the point sets that the page offers, one point per line."""
+    """Return the point sets that the page offers by name, as texts with one point on each line."""
     plane = ((0, 0), (90, 10), (100, 60), (40, 90), (-30, 60), (30, 40), (50, 35))
     solid = ((123, 456, 789), (987, 654, 321), (111, 999, 555), (345, 678, 901), (222, 333, 444), (871, 12, 345))
     decks = {
@@ -90,7 +92,7 @@ def point_sets() -> dict[str, str]:
 
 
 def recorded() -> str:
-    """Return the operator's log of example 4: a run of program1_examples, then of program 2 with the punched cards."""
+    """Return the operator's log of a run of program1_examples and then program 2 with the points of example 4."""
     desk = Desk(clock=lambda: 0.0)
     for program, deck in (("program1_examples", "example4"), ("program2", "PUNCHED")):
         desk.load({"program": program, "deck": deck})
@@ -102,7 +104,10 @@ def recorded() -> str:
 
 
 def recorded_run() -> Answer:
-    """Return the load and the slices of example 5 in program 3, which the page shows while Python is loaded."""
+    """Return a recorded run of program 3 with example 5, which the page shows until Python is loaded.
+
+    The recording has the answer ``load`` and the answers of all slices, ``frames``.
+    """
     desk = Desk(clock=lambda: 0.0, small=10)
     load = desk.load({"program": "program3", "deck": "example5/punched"})
     frames = [desk.run(1e9)]
@@ -116,31 +121,33 @@ def recorded_run() -> Answer:
     return {"load": load, "frames": frames}
 
 
-def install_machine(folder: Path, wheel: Path | None, source: Path = SOURCE) -> int:
-    """Write the files that the pages load into ``folder`` and return the bytes that a browser loads.
+def install_machine(folder: Path, wheel: Path | None) -> int:
+    """Write the files that the pages load into ``folder``, and return the number of bytes that a browser loads.
 
-    ``machine.gzip`` holds all files that Python needs.  ``machine.js`` has the same bytes for a site that is opened
-    without a web server, because a page may then load scripts only.  Without a wheel or the npm package, the size is 0,
-    and only ``size.js`` is written, from which the pages learn that the emulator is missing.
+    ``machine.gzip`` contains all files that Python needs. ``machine.js`` has the same bytes for a site that is opened
+    without a web server, because such a page can load only scripts. Without a wheel or the npm package, the number is
+    0, and only ``size.js`` is written, which tells the pages that the emulator is missing.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    npm, size, version = source / "node_modules" / "pyodide", 0, ""
+    npm, size, version = SOURCE / "node_modules" / "pyodide", 0, ""
     if npm.is_dir() and wheel is not None:
         lock = json.loads((npm / _LOCK).read_text("utf-8"))
         files = {name: (npm / name).read_bytes() for name in PYODIDE}
-        files[_LIBRARY], compiled = _compiled(npm, [_library(npm / _LIBRARY), packages(wheel)])
+        with zipfile.ZipFile(npm / _LIBRARY) as archive:
+            library = {name: archive.read(name) for name in archive.namelist() if not name.endswith("/")}
+        files[_LIBRARY], compiled = _compiled(npm, [_stored(library), packages(wheel)])
         with zipfile.ZipFile(BytesIO(compiled)) as archive:
             files |= {f"packages/{name}": archive.read(name) for name in archive.namelist()}
         files["lock.json"] = json.dumps(lock | {"packages": {}}).encode()
         data = packed(files)
         size, version = len(data), hashlib.sha256(data).hexdigest()[:16]
         (folder / "machine.gzip").write_bytes(data)
-        worker = (source / "worker.js").read_text("utf-8")
+        worker = (SOURCE / "worker.js").read_text("utf-8")
         local = f"window.hull1620Local = {_json({'worker': worker, 'machine': base64.b64encode(data).decode()})};\n"
         (folder / "machine.js").write_text(local, encoding="utf-8")
-        shutil.copyfile(source / "worker.js", folder / "worker.js")
+        shutil.copyfile(SOURCE / "worker.js", folder / "worker.js")
         # A service worker controls only the pages in its own folder.
-        shutil.copyfile(source / "cache.js", folder.parent / "cache.js")
+        shutil.copyfile(SOURCE / "cache.js", folder.parent / "cache.js")
     known = f'window.hull1620Bytes = {size};\nwindow.hull1620Version = "{version}";\n'
     (folder / "size.js").write_text(known, encoding="ascii")
     return size
@@ -158,7 +165,7 @@ def packed(files: Mapping[str, bytes]) -> bytes:
 
 
 def _compiled(npm: Path, archives: Sequence[bytes]) -> list[bytes]:
-    """Return the archives with compiled modules instead of their source."""
+    """Return the archives with each module compiled. The results have no source code."""
     if not (node := shutil.which("node")):
         raise BuildError("node, which compiles the modules of the emulator in the browser, is missing; install Node.js")
     with tempfile.TemporaryDirectory() as folder:
@@ -172,12 +179,6 @@ def _compiled(npm: Path, archives: Sequence[bytes]) -> list[bytes]:
         return [path.read_bytes() for path in paths]
 
 
-def _library(archive: Path) -> bytes:
-    """Return the standard library without the modules that no page imports."""
-    with zipfile.ZipFile(archive) as library:
-        return _stored({name: library.read(name) for name in library.namelist() if not name.endswith("/")})
-
-
 def _is_loaded(name: str) -> bool:
     folder, _, module = name.rpartition("/")
     if folder == "encodings" and module.removesuffix(".py") not in _ENCODINGS:
@@ -186,7 +187,7 @@ def _is_loaded(name: str) -> bool:
 
 
 def _stored(files: Mapping[str, bytes]) -> bytes:
-    """Return an archive of the files that a page imports, not compressed, because the whole download is."""
+    """Return an uncompressed archive of the files that a page needs; the whole download is compressed later."""
     buffer = BytesIO()
     with zipfile.ZipFile(buffer, "w") as archive:
         for name, data in sorted((name, data) for name, data in files.items() if _is_loaded(name)):
@@ -207,5 +208,5 @@ def _filled(name: str, **placeholders: str) -> str:
 
 
 def _json(value: object) -> str:
-    """Return JSON that is safe inside a script element."""
+    """Return JSON without the character <, so that it cannot end the script element that contains it."""
     return json.dumps(value, separators=(",", ":")).replace("<", "\\u003c")

@@ -1,4 +1,4 @@
-"""The programs and decks that the emulator page offers by name, and the deck that fits each program."""
+"""The built-in programs and decks of the emulator's page, by name."""
 
 from importlib.resources import files
 from importlib.resources.abc import Traversable
@@ -7,17 +7,18 @@ from emulator.language.cards import Deck, deck_from_text
 from modern.edition.chapter6 import EXAMPLES, chapter6_folder, input_deck
 from modern.edition.programs import BUILT_INS
 
-# What a deck holds: points for program 1, or the cards that program 1 punches for program 2 or for program 3.
+# The kinds of decks: points for program 1, or the cards that program 1 punches for program 2 or for program 3.
 POINTS, PLANE, SPACE = "points", "plane", "space"
 _KINDS = {1: POINTS, 2: PLANE, 3: SPACE}
-# The kind of the cards that program 1 punches for an example of chapter 6; it needs no second program for 1 to 3.
+# The kind of the cards that program 1 punches for examples 4 to 6. Examples 1 to 3 need no second program.
 _PUNCHED = {4: PLANE, 5: SPACE, 6: SPACE}
 _FOLDERS = {"grounds": ("fortran_src", "grounds"), "counterexamples": ("transcripts", "counterexamples")}
 
 
 def offered() -> dict[str, list[list[str]]]:
-    """Return ``programs`` and ``decks``, each as lists of name, title and kind.  A program can read the decks of its
-    own kind.
+    """Return ``programs`` and ``decks``, each as lists of name, title and kind.
+
+    A program reads the decks of its own kind.
     """
     programs = [[b.name, b.title, _KINDS[b.number]] for b in BUILT_INS]
     decks = [[f"example{n}", f"example {n} of chapter 6", POINTS] for n in EXAMPLES]

@@ -1,9 +1,10 @@
 """The interface between the emulator and the page that controls it: load a program and a deck, run, and operate.
 
-Requests and answers are plain data that JSON can represent; the page is ``docs/console``.  The machine runs in slices
-of some milliseconds.  The operator has the same questions, commands and log as on the command line
-(:mod:`emulator.machine.operator`).  Python in the browser cannot wait: if the machine halts and has no answer, the
-slice ends, and the next one continues there.  To go back, a new session repeats the log up to an earlier statement.
+Requests and answers are plain data that JSON can represent; the page is ``docs/console``. The machine runs in slices of
+some milliseconds. The operator has the same questions, commands and log as on the command line
+(:mod:`emulator.machine.operator`). Python in the browser cannot wait for the visitor: if the machine halts and the
+visitor has not answered, the slice ends, and the next slice continues from the halt. To go back, a new session repeats
+the log up to an earlier statement.
 """
 
 import io
@@ -32,7 +33,7 @@ from modern.publication import panel
 from modern.publication.decks import named_deck, offered
 from modern.thesis.job import second_program
 
-# The answer to a request: keys and plain values, which the docstring of each method describes.
+# A request or an answer: plain values by name. The docstring of each method describes them.
 Answer = dict[str, Any]
 
 _WIDTH = 72
@@ -42,11 +43,11 @@ _ENDED = "the run has ended: press Load to load the deck again"
 
 
 class _Unanswered(Exception):
-    """Raised when the machine waits for the operator, and the page has not sent an action yet."""
+    """Raised if the machine waits for the operator and the page has not sent an action yet."""
 
 
 class _Visitor(FromFile):
-    """The operator of the page: its actions come from a log first, and then from the visitor."""
+    """The operator of the page, who first repeats a log and then takes the actions of the visitor."""
 
     def __init__(self, record: panel.Record, log: str = "") -> None:
         super().__init__("log", log)
@@ -54,7 +55,7 @@ class _Visitor(FromFile):
         self._record = record
 
     def forget(self) -> bool:
-        """Drop the remaining lines of the log, and return True if there were any."""
+        """Drop the lines of the log that remain. Return True if there were any."""
         has_lines, self._lines = bool(self._lines), deque()
         return has_lines
 
@@ -76,7 +77,7 @@ class _Visitor(FromFile):
 
 @dataclass(frozen=True, slots=True)
 class _Loaded:
-    """A program and a deck in the machine, with the name of the deck in the log."""
+    """A program and a deck in the machine. ``deck_name`` is the name of the deck in the log."""
 
     program: Program
     deck: Deck
@@ -86,7 +87,10 @@ class _Loaded:
 
 @dataclass
 class Desk:
-    """A machine with program, decks and operator.  ``clock`` is read after each ``small`` operations of a slice."""
+    """A machine with program, decks and operator.
+
+    ``clock`` returns the time in seconds. During a slice it is read after every ``small`` operations.
+    """
 
     clock: Callable[[], float] = time.monotonic
     small: int = 2_000
@@ -94,14 +98,14 @@ class Desk:
     _session: Session | None = None
     _visitor: _Visitor = field(default_factory=lambda: _Visitor(panel.Record()))
     _logged: Operator = field(default_factory=Operator)
-    # The log of the loads before this one, with the decks of the visitor, and the log of this load.
+    # The log of the earlier loads, which also has the visitor's decks, and the log of the present load.
     _earlier: str = ""
     _log: io.StringIO = field(default_factory=io.StringIO)
     _cards: Cards = field(default_factory=Cards)
     _ending: bool = False
     _stacker: list[str] = field(default_factory=list)
     _happened: list[Event] = field(default_factory=list)
-    # The loads of a log that remain to be repeated, and the decks in the log or from the page.
+    # The loads of a repeated log that are still to come, and the texts of programs and decks that the visitor provided.
     _queue: deque[Load] = field(default_factory=deque)
     _texts: dict[str, str] = field(default_factory=dict)
     _record: panel.Record = field(default_factory=panel.Record)
@@ -112,13 +116,14 @@ class Desk:
     def load(self, request: Answer) -> Answer:
         """Compile a program and load a deck; the machine then waits for START.
 
-        In the request, ``program`` and ``deck`` are each a built-in name or a pair of name and text.  The deck ``""``
-        is empty, and ``"PUNCHED"`` has the cards punched last.  ``switches`` lists the sense switches that are on.
-        ``arithmetic``, ``core``, ``limit`` and ``upcase`` are those of the command line.
+        In the request, ``program`` and ``deck`` are each a built-in name or a pair of name and text. The deck ``""`` is
+        empty, and the deck ``"PUNCHED"`` has the cards that the last run punched. ``switches`` lists the sense switches
+        that are on. ``arithmetic``, ``core``, ``limit`` and ``upcase`` have the meaning of the options of ``hull1620
+        run``.
 
-        The answer has ``program``, ``listing`` (number and text of each card), ``deck``, ``switches``, and from
-        :mod:`modern.publication.panel` ``core``, ``touched`` and ``formats``.  If the request is invalid, it has
-        ``refused``, a list of messages, and the machine is empty.
+        The answer has ``program``, ``listing`` (number and text of each card), ``deck``, ``switches``, and ``core``,
+        ``touched`` and ``formats`` as :mod:`modern.publication.panel` returns them. If the request is invalid, the
+        answer has only ``refused``, a list of messages, and the machine is empty.
         """
         if "log" not in request:  # a new load ends the repetition of a log
             self._queue.clear()
@@ -154,7 +159,7 @@ class Desk:
         }
 
     def replay(self, text: str) -> Answer:
-        """Begin to repeat a log with any number of loads.  Return the answer of :meth:`load` for the first load."""
+        """Begin to repeat a log, which may have several loads. Return the answer of :meth:`load` for the first load."""
         try:
             log = FromFile("log", text)
         except EmulatorError as error:
@@ -175,14 +180,19 @@ class Desk:
     def run(self, milliseconds: float, pace: float = 0.0) -> Answer:
         """Run for about the given time, or until the machine waits or the run ends.
 
-        ``pace`` is the largest speed relative to the 1620, or 0 for full speed.  The answer has ``events`` (kind and
-        text), ``card`` (the card that is executed next), ``statement`` (its number in the run), ``time`` on a 1620 with
-        its bounds, also in ``seconds``, ``stands`` (why the machine waits, or empty), ``waits`` (``typed`` for a line
-        with its ``fields``, ``answer`` for an action, or empty), ``ended`` and ``messages``.  ``registers`` are the
-        floating and the fixed-point accumulator.  ``picture``, ``stages`` and ``wrote`` are those of
-        :mod:`modern.publication.panel`.  A run that never ends is stopped, and ``repeats`` is the number of statements
-        that it repeats.  After the end, ``next`` names the program that reads the punched cards, and ``queued`` is true
-        if a log has further loads.
+        ``pace`` is the largest speed as a multiple of the speed of a 1620, or 0 for full speed. The answer has these
+        values:
+
+        ``events`` lists what happened, each as kind and text. ``card`` is the card that is executed next, ``statement``
+        its number in the run, and ``read`` the number of cards read. ``time`` is the time on a 1620 with its bounds,
+        ``seconds`` the same as a number. ``stands`` is the reason why the machine waits, or empty. ``waits`` is
+        ``typed`` if the machine waits for a line with ``fields``, ``answer`` if it waits for an action, or empty.
+        ``registers`` has the floating-point and the fixed-point accumulator. ``picture``, ``stages`` (their number) and
+        ``wrote`` (fields) come from :mod:`modern.publication.panel`. A run that never ends is stopped, and ``repeats``
+        is the number of statements that it repeats.
+
+        At the end of the run ``ended`` is true, ``messages`` has the messages of the command, ``next`` names the
+        program that reads the punched cards, and ``queued`` is true if a log has further loads.
         """
         if (session := self._session) is None or self._ending:
             return self._answer()
@@ -242,11 +252,11 @@ class Desk:
         return {"lines": lines}
 
     def jump(self, statement: int) -> Answer:
-        """Go back to the beginning of a statement of this run, counted from 1, by repeating the run, and return an
-        answer as :meth:`run` does.
+        """Go to the beginning of a statement of this run, counted from 1, and return an answer as :meth:`run` does.
 
-        The machine then stops before that statement, and everything after it is undone.  The answer also has
-        ``undone``: the numbers of lines ``typed`` and cards ``punched`` that remain.  To go forward, the machine steps.
+        To go back, the machine repeats the run and stops before the statement, and everything after it is undone. The
+        answer also has ``undone``: the numbers of lines ``typed`` and cards ``punched`` that remain. To go forward, the
+        machine steps.
         """
         if statement > len(self._record.times):
             self.act(f"STEP {statement - len(self._record.times)}")
@@ -265,7 +275,7 @@ class Desk:
         return answer | {"events": [], "undone": {"typed": len(session.result().typed), "punched": len(self._stacker)}}
 
     def decide(self) -> Answer:
-        """Compare the loaded run with exact arithmetic; see :func:`modern.publication.verdict.verdict`."""
+        """Compare the loaded run with exact arithmetic, as :func:`modern.publication.verdict.verdict` describes."""
         from modern.publication.verdict import verdict  # not at the top: mpmath would delay the page
 
         if (loaded := self._loaded) is None:
@@ -273,7 +283,7 @@ class Desk:
         return verdict(loaded.program, loaded.deck, loaded.options)
 
     def field(self, address: int) -> Answer:
-        """Return the field at an address of core storage (:func:`modern.publication.panel.field_at`)."""
+        """Return the field at an address of core storage, as :func:`modern.publication.panel.field_at` describes."""
         return panel.field_at(self._session, address, self._record.writers) if self._session else {}
 
     def stages(self) -> list[Answer]:
@@ -286,7 +296,7 @@ class Desk:
         return {"lines": lines if isinstance(lines, list) else []}
 
     def log(self) -> str:
-        """Return the loads and the operator's actions since the page was opened, as a log that can be repeated."""
+        """Return a log of all loads and actions since the page was opened. The log can be repeated."""
         return self._earlier + self._log.getvalue()
 
     def _begin(self, loaded: _Loaded, log: str) -> Session:

@@ -137,6 +137,14 @@ def facing(name: str) -> Facing:
     return Facing(name, entry.title, text, tuple(cards), rows_everywhere, dropped)
 
 
+def page_of(row: Row) -> str:
+    """Return the built-in program on whose page a row of a listing is shown.
+
+    The page of program1_examples shows only the rows that the listing of program 1 does not use.
+    """
+    return row.text if row in facing(row.text).rows() else f"{row.text}_examples"
+
+
 def _everywhere(lines: Sequence[Line]) -> frozenset[str]:
     counts = Counter(row for line in lines for row in set(line.rows))
     return frozenset(row for row, count in counts.items() if 2 * count > len(lines))

@@ -1,8 +1,9 @@
 """The control flow of a program as the boxes of a flow chart in the style of 1963.
 
-A box is a sequence of statements of one kind with one entry: processing, input and output, a decision, an empty step,
-or an end.  The boxes are derived from object code, so that the chart shows the control flow of the compiled program.  A
-DO becomes its first assignment and, after its last statement, the decision whether to repeat the loop.
+A box is a sequence of statements of one kind that control enters only at the first: processing, input and output, a
+decision, an empty step, or an end. The boxes are derived from object code, so that the chart shows the control flow of
+the compiled program. A DO becomes two boxes: its first assignment and, after its last statement, the decision whether
+to repeat the loop.
 """
 
 from collections.abc import Iterable, Sequence
@@ -19,7 +20,10 @@ Side = Literal["left", "down", "right"]
 
 @dataclass(frozen=True, slots=True)
 class Exit:
-    """An exit of a box: its condition ``taken`` (empty if there is only one), its side, and the index of its target."""
+    """An exit of a box.
+
+    ``taken`` is the condition of the exit, empty if the box has only one exit. ``target`` is the index of a box.
+    """
 
     taken: str
     side: Side
@@ -30,8 +34,8 @@ class Exit:
 class Box:
     """A symbol of the chart.
 
-    ``label`` is the number of its first statement, or empty.  ``name`` is that number or ``card N``.  ``cards`` are the
-    cards that the box represents, and ``lines`` its text, one line for each statement.
+    ``label`` is the number of its first statement, or empty. ``name`` is that number or ``card N``. ``cards`` are the
+    numbers of the cards that the box represents. ``lines`` is its text, one line for each statement.
     """
 
     kind: Kind
@@ -44,17 +48,16 @@ class Box:
 
 @dataclass(frozen=True)
 class Flow:
-    """The boxes of a program in the order of its cards.  An exit names its target by its index here."""
+    """The boxes of a program in the order of its cards. An exit names its target by the index in ``boxes``."""
 
     source: str
     boxes: tuple[Box, ...]
 
-    def arrivals(self, target: int) -> tuple[tuple[int, int], ...]:
-        """Return the exits that lead to a box, each as the index of its box and its index among the exits there."""
-        return self._arrivals[target]
-
     @cached_property
-    def _arrivals(self) -> tuple[tuple[tuple[int, int], ...], ...]:
+    def arrivals(self) -> tuple[tuple[tuple[int, int], ...], ...]:
+        """The exits that lead to each box, as pairs: the index of the box that the exit leaves, and the index of the
+        exit.
+        """
         arrivals: list[list[tuple[int, int]]] = [[] for _ in self.boxes]
         for place, box in enumerate(self.boxes):
             for k, way in enumerate(box.exits):
@@ -62,21 +65,26 @@ class Flow:
         return tuple(map(tuple, arrivals))
 
     def table(self) -> tuple[tuple[str, str, str], ...]:
-        """Return every transition as the names of its boxes and its condition: from, condition, to."""
+        """Return every transition as three texts: the name of a box, the condition of the exit, and the name of the
+        target.
+        """
         return tuple(
             (box.name, way.taken or "next", self.boxes[way.target].name) for box in self.boxes for way in box.exits
         )
 
 
 def flow(program: Program) -> Flow:
-    """Return the control flow of a program.  The end of a run at a READ with an empty hopper is not drawn."""
+    """Return the control flow of a program.
+
+    A run can also end at a READ without a card; the flow does not show this end.
+    """
     parts = _parts(program)
     return Flow(program.source, _merged(_forwarded([_box(program, part, parts) for part in parts])))
 
 
 @dataclass(frozen=True, slots=True)
 class _Part:
-    """The instructions of a statement, or those that close a DO (``begins`` is False)."""
+    """The instructions of a statement, or, if ``begins`` is False, those that close a DO after its last statement."""
 
     start: int
     end: int
@@ -104,7 +112,7 @@ def _parts(program: Program) -> list[_Part]:
 
 
 def _box(program: Program, part: _Part, parts: Sequence[_Part]) -> Box:
-    """Return the box of a flow chart for a group of instructions; its exits name targets by group index."""
+    """Return the box of a part. In this step, an exit names its target by the index in ``parts``."""
     index_of = {known.start: index for index, known in enumerate(parts)}
     code = program.code[part.start : part.end]
     last = code[-1]
@@ -140,7 +148,7 @@ def _tested(written: str) -> str:
 
 
 def _first_value(written: str) -> str:
-    """Return the first assignment of a DO (``DO 101 I=1,N`` gives ``I=1``), and other statements unchanged."""
+    """Return the first assignment of a DO (``I=1`` for ``DO 101 I=1,N``), and any other statement unchanged."""
     tokens = written.split(None, 2)
     if len(tokens) == 3 and tokens[0] == "DO" and tokens[1].isdigit() and "=" in tokens[2]:
         variable, _, rest = tokens[2].partition("=")
@@ -149,7 +157,7 @@ def _first_value(written: str) -> str:
 
 
 def _loop_test(program: Program, test: Instruction) -> str:
-    """Return the test that closes a DO: ``I+1 <= N``."""
+    """Return the test that closes a DO, such as ``I+1 <= N``."""
     names = map(program.storage.name_of, program.loops[test.address][:3])
     variable, step, limit = (name.removeprefix("constant ") for name in names)
     return f"{variable}+{step} <= {limit}"
@@ -164,7 +172,7 @@ def _selected(targets: Sequence[int]) -> list[tuple[str, Side, int]]:
 
 
 def _forwarded(boxes: Sequence[Box]) -> list[Box | None]:
-    """Remove the box of each GO TO without a number: the box before it gets the target of the GO TO."""
+    """Replace the box of each GO TO without a statement number by None, and lead the box before it to the target."""
     forwarded: list[Box | None] = list(boxes)
     come_from = _sources(boxes)
     for place, box in enumerate(boxes):
@@ -179,7 +187,7 @@ def _forwarded(boxes: Sequence[Box]) -> list[Box | None]:
 
 
 def _merged(boxes: Sequence[Box | None]) -> tuple[Box, ...]:
-    """Merge consecutive boxes of processing or of input and output, and renumber the targets of the exits."""
+    """Merge consecutive boxes of processing, or of input and output, and renumber the targets of the exits."""
     merged: list[Box] = []
     new_index: dict[int, int] = {}
     come_from = _sources(boxes)

@@ -1,13 +1,13 @@
 """The points and the hull in a program's variables at the end of each block of its commentary.
 
-The programs run with the decks of chapter 6.  A block's moment is the end of its first execution that changes the
-points or the equations, or else of its first execution.  ``marks`` of the commentary (``fortran_src/commentary``) name
-the variables whose points are highlighted: ``I`` and ``I1 I2`` hold numbers of points, ``plane NETC`` the number of an
-equation, and ``at C1 C2 C3`` coordinates.
+The programs run with the decks of chapter 6. The *moment* of a block is the end of its first execution that changes the
+points or the equations, or the end of its first execution if none does. ``marks`` of the commentary
+(``fortran_src/commentary``) name the variables whose points are highlighted: ``I`` and ``I1 I2`` contain numbers of
+points, ``plane NETC`` the number of an equation, and ``at C1 C2 C3`` coordinates.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cache
 from typing import Any
@@ -24,7 +24,7 @@ from modern.geometry.vectors import Vector, cross, dot, minus
 from modern.publication.commentary import Block, commentary
 from modern.publication.decks import named_deck
 from modern.publication.measured import LIMIT, runs
-from modern.publication.panel import Record, number
+from modern.publication.panel import DEFINING, Record, number
 
 Point = tuple[float, ...]
 Faces = tuple[tuple[Point, ...], ...]
@@ -35,25 +35,27 @@ LEGEND = (
     "Pictures: the points in the program's variables at the end of the block. Filled: a vertex. Cross: a point that "
     "the program has deleted. Bold: a new equation. Dashed: a removed equation. Coloured: the named variables."
 )
-_DEFINING = ("MM", "NN", "KK")
 
 
 @dataclass(frozen=True, slots=True)
 class State:
-    """The geometry in a program's variables: points, of which the first ``vertices`` are vertices, and faces."""
+    """The points and faces in a program's variables.
+
+    The vertices come first among the points; ``vertices`` is their number.
+    """
 
     points: tuple[Point, ...] = ()
     vertices: int = 0
     faces: Faces = ()
 
     def outline(self) -> tuple[frozenset[Point], frozenset[frozenset[Point]]]:
-        """Return the points and the faces, each without their order, for comparing two moments."""
+        """Return the points and the faces as sets, to compare two moments without regard to the order."""
         return frozenset(self.points), frozenset(map(frozenset, self.faces))
 
 
 @dataclass(frozen=True, slots=True)
 class Mark:
-    """A highlighted point, segment or polygon: the name of its variables with their values, and its corners."""
+    """A highlighted point, segment or polygon. ``name`` has the names and values of its variables: ``I1 = 2``."""
 
     name: str
     corners: tuple[Point, ...]
@@ -61,7 +63,11 @@ class Mark:
 
 @dataclass(frozen=True, slots=True)
 class Moment:
-    """The end of an execution of a block in a run of an example; ``cloud`` has all points of the run."""
+    """The end of an execution of a block in a run of an example.
+
+    ``statements`` is the number of statements executed so far. ``before`` and ``after`` are the states at the beginning
+    and the end of the execution. ``cloud`` has all points of the run.
+    """
 
     example: int
     statements: int
@@ -71,7 +77,9 @@ class Moment:
     cloud: tuple[Point, ...]
 
     def caption(self) -> str:
-        """Return a sentence on the moment and the values of the highlighted variables."""
+        """Return a sentence that names the example, the number of statements and the highlighted variables with their
+        values.
+        """
         names = ", ".join(mark.name for mark in self.marks if mark.name)
         faces, count = len(self.after.faces), len(self.after.points)
         points = f"{count} point{'s' * (count != 1)}"
@@ -81,7 +89,10 @@ class Moment:
 
 @cache
 def moments(program: str) -> Mapping[int, Moment]:
-    """Return the moments of a built-in program by the first card of their block; blocks without points have none."""
+    """Return the moments of a built-in program by the first card of their block.
+
+    A block at whose end the program holds no points has no moment.
+    """
     result: dict[int, Moment] = {}
     blocks = commentary(program).blocks
     for run in reversed(runs(program)):
@@ -104,7 +115,7 @@ class _Recorder:
     _before: State = field(default_factory=State)
     _count: int = 0
     _cloud: tuple[Point, ...] = ()
-    # By the first card of the block: whether the execution changed something, and its moment.
+    # For the first card of each block: whether the execution changed the points or equations, and its moment.
     _moments: dict[int, tuple[bool, Moment]] = field(default_factory=dict)
 
     def __call__(self, line: Line, session: Session) -> None:
@@ -129,10 +140,7 @@ class _Recorder:
 
     def moments(self) -> dict[int, Moment]:
         """Return the moments by the first card of their block."""
-        return {
-            card: Moment(m.example, m.statements, m.before, m.after, m.marks, self._cloud)
-            for card, (_, m) in self._moments.items()
-        }
+        return {card: replace(moment, cloud=self._cloud) for card, (_, moment) in self._moments.items()}
 
 
 def _state(now: Mapping[str, Any]) -> State:
@@ -144,7 +152,7 @@ def _state(now: Mapping[str, Any]) -> State:
 
 
 def _marks(block: Block, state: State, session: Session) -> Iterator[Mark]:
-    """Yield the marks of a block whose variables hold numbers of existing points."""
+    """Yield the marks of a block, except those whose variables do not name existing points."""
     for mark in block.marks:
         kind, *names = mark.split() if mark.startswith(("plane ", "line ", "at ")) else ("points", *mark.split())
         values = [_value(name, session) for name in names]
@@ -156,7 +164,7 @@ def _marks(block: Block, state: State, session: Session) -> Iterator[Mark]:
             yield Mark("the inside point", (tuple(value or 0.0 for value in values),))
             continue
         if kind in ("plane", "line"):
-            tables = [table for name in _DEFINING if len(table := session.program.storage.fields_of(name)) > 1]
+            tables = [table for name in DEFINING if len(table := session.program.storage.fields_of(name)) > 1]
             fields = [table[numbers[0] - 1] for table in tables if 0 < numbers[0] <= len(table)]
             numbers = [int(number(session, field) or 0) for field in fields]
         if numbers and all(0 < n <= len(state.points) for n in numbers):
@@ -170,10 +178,10 @@ def _value(name: str, session: Session) -> float | None:
 
 
 def drawn(moment: Moment) -> str:
-    """Return the picture of a moment as SVG, with classes for its colours.
+    """Return the picture of a moment as SVG, with CSS classes for its colours.
 
-    Faces that the block has added are bold, those that it has removed dashed.  A cross is a point that the program has
-    deleted, a filled circle a vertex.
+    Faces that the block has added are bold, and those that it has removed are dashed. A cross marks a point that the
+    program has deleted, and a filled circle a vertex.
     """
     place, height = _projection(moment.cloud)
 
@@ -202,14 +210,14 @@ def drawn(moment: Moment) -> str:
 
 
 def _projection(cloud: Sequence[Point]) -> tuple[Callable[[Point], tuple[float, float]], int]:
-    """Return a function from points to places in the picture, and the height of the picture."""
+    """Return the function that maps a point in space to a place in the picture, and the height of the picture."""
     sight = view(_eye([_vector(point) for point in cloud]))
     pixel, height = fit([sight.project(_vector(point)) for point in cloud], _WIDTH, _HEIGHT, _MARGIN)
     return lambda point: pixel(sight.project(_vector(point))).place, height
 
 
 def _eye(points: Sequence[Vector]) -> Eye:
-    """Return a direction of view for a picture of points; it is perpendicular to collinear or coplanar points."""
+    """Return a direction of view for points; it is perpendicular to their line or plane if they are in one."""
     apart = [line for point in points if any(line := minus(point, points[0]))]
     normal = next((n for line in apart if any(n := cross(apart[0], line))), None)
     if normal is None:

@@ -1,6 +1,7 @@
-"""A session as the emulator's page shows it, as plain data: the points with their hull, and core storage.
+"""The state of a session as plain data for the emulator's page: the points with their hull, and core storage.
 
-All numbers come from the variables of the running program.  The page draws them and computes nothing about the hull.
+All numbers come from the variables of the running program. The page only draws them; it computes nothing about the
+hull.
 """
 
 from array import array
@@ -22,21 +23,26 @@ from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED
 from emulator.objectdeck.digits import card_text
 from emulator.objectdeck.extent import code_positions
 
-# The arrays of coordinates in programs 1 and 3, and those in program 2 by the projection KPROJ.
+# The arrays of coordinates in programs 1 and 3, and the arrays in program 2 for each value of its variable KPROJ.
 _SPACE = ("X", "Y", "Z")
 _FLAT = {1: ("T", "R", "S"), 2: ("R", "T", "S"), 3: ("R", "S", "T")}
 # The arrays with the numbers of the points that define each equation.
-_DEFINING = ("MM", "NN", "KK")
-# The first statement at which the state is kept, to recognise a run that never ends; the number doubles each time.
+DEFINING = ("MM", "NN", "KK")
+# To recognise a run that never ends, its state is kept after this number of statements, and each time the number
+# doubles.
 _KEPT = 1024
 # The operations that assign a value to a variable.
 _STORES = (op.FMFAC, op.FMFIX, op.TRANSMIT)
-# For program 2 and program 3: the statements that begin a data set, a stage of the hull, and the output.
+# The numbers of the statements that begin a data set, a stage of the hull, and the output. The key is an array that
+# only program 2 or only program 3 has.
 _STAGES = {"R": (100, 106, 170), "KK": (100, 103, 174)}
 
 
 def stage_labels(program: Program) -> tuple[int, int, int]:
-    """Return the statement numbers at which a data set, a new hull, and the output begin, or zeros."""
+    """Return the numbers of the statements that begin a data set, a stage of the hull, and the output.
+
+    Return zeros for a program other than program 2 and program 3.
+    """
     storage = program.storage
     if all(storage.fields_of(name) for name in ("NE", "NV", "MM", "NN")):
         for name, labels in _STAGES.items():
@@ -46,10 +52,12 @@ def stage_labels(program: Program) -> tuple[int, int, int]:
 
 
 def picture(session: Session, state: tuple[list[Any], list[Any]] | None = None) -> dict[str, Any]:
-    """Return ``points``, the number of ``vertices`` among the first of them, and ``faces`` as indices of points.
+    """Return the points and faces in a program's variables, or an empty result for a program without such variables.
 
-    The points and faces come from the variables X, Y, Z (R, S, T in program 2), NV, and MM, NN, KK up to NE, at present
-    or in an earlier ``state`` of values and kinds.  The result is empty for a program without such variables.
+    The result has ``points``, the number of ``vertices``, which are the first points, and ``faces`` as lists of indices
+    of points. Points come from the variables X, Y and Z (in program 2, R, S and T), the number of vertices from NV, and
+    the faces from MM, NN and KK up to index NE. The variables have their present values, or those of an earlier
+    ``state``, a pair of values and kinds.
     """
     storage = session.program.storage
 
@@ -65,7 +73,7 @@ def picture(session: Session, state: tuple[list[Any], list[Any]] | None = None) 
     count = min(whole("N"), *map(len, axes))
     rows = [[number(session, axis[n], state) for axis in axes] for n in range(count)]
     points = [row for row in rows if None not in row]
-    tables = [table for name in _DEFINING if len(table := storage.fields_of(name)) > 1]
+    tables = [table for name in DEFINING if len(table := storage.fields_of(name)) > 1]
     faces: list[list[int]] = []
     if len(tables) > 1 and stage_labels(session.program)[0]:
         for k in range(min(whole("NE"), *map(len, tables))):
@@ -77,7 +85,10 @@ def picture(session: Session, state: tuple[list[Any], list[Any]] | None = None) 
 
 
 def number(session: Session, field: int, state: tuple[list[Any], list[Any]] | None = None) -> float | None:
-    """Return the contents of a field as a float for drawing, or None if it is undefined."""
+    """Return the contents of a field as a float, or None if the field is undefined.
+
+    For ``state`` see :func:`picture`.
+    """
     values, kinds = state or (session.state.values, session.state.kinds)
     value, kind = values[field], kinds[field]
     if kind == UNDEFINED:
@@ -86,7 +97,7 @@ def number(session: Session, field: int, state: tuple[list[Any], list[Any]] | No
 
 
 def core(program: Program, size: int) -> dict[str, Any]:
-    """Return the map of core storage: ``regions`` as name, kind, first and last address, in the order of addresses."""
+    """Return the regions of core storage in the order of addresses, each as name, kind, first and last address."""
     code = OBJECT_PROGRAM + code_positions(program)
     lowest = core_address(program.storage.fields, size) + 1
     regions = [
@@ -102,10 +113,11 @@ def core(program: Program, size: int) -> dict[str, Any]:
 
 
 def field_at(session: Session, address: int, writers: dict[int, tuple[int, int]]) -> dict[str, Any]:
-    """Return the field that contains an address: ``name``, ``value``, ``digits`` as the 1620 held them, and ``writer``.
+    """Return the field of data that contains an address, or an empty answer for another address.
 
-    ``writers`` maps a field to the card that wrote it last and the number of that statement in the run.  The answer is
-    empty for an address outside the data.  ``digits`` is empty if the arithmetic is not that of the 1620.
+    The answer has ``name``, ``addresses`` (first and last), ``value``, ``digits`` as the 1620 stores them, ``floating``
+    and ``writer``. ``digits`` is empty if the arithmetic is not that of the 1620. ``writers`` maps a field to the card
+    that last wrote it and the number of the writing statement in the run.
     """
     field = (session.options.core - 1 - FUNCTION_NAMES - address) // FIELD
     storage = session.program.storage
@@ -123,7 +135,7 @@ def field_at(session: Session, address: int, writers: dict[int, tuple[int, int]]
 
 
 def _digits(session: Session, field: int) -> str:
-    """Return the ten positions of a field in the code of the cards, in which a letter is a digit with a flag."""
+    """Return the ten digits of a field in the code of punched cards, in which a digit with a flag is a letter."""
     kind, text = session.state.kinds[field], contents(session, field)
     if kind == UNDEFINED or session.options.numbers.digits != 8:
         return ""
@@ -131,7 +143,7 @@ def _digits(session: Session, field: int) -> str:
 
 
 def compile_messages(text: str) -> list[list[Any]]:
-    """Compile a program and return the messages of the compiler as card, column and text."""
+    """Compile a program and return the messages of the compiler, each as card, column and text."""
     try:
         compile_deck(deck_from_text("program", text))
     except CompileError as error:
@@ -142,7 +154,7 @@ def compile_messages(text: str) -> list[list[Any]]:
 
 
 def formats(program: Program) -> list[list[Any]]:
-    """Return the FORMATs by which a program reads cards, each as a title and the fields of its first record."""
+    """Return the FORMATs by which a program reads cards, each as a title and the fields of the FORMAT's first card."""
     numbers = {i.second: None for i in program.code if i.operation == op.BEGIN and program.verbs[i.address] == "READ"}
     read = (program.formats[number] for number in numbers)
     return [[f"FORMAT {label}", Layout(spec).record_fields(0)] for label, spec in read]
@@ -175,12 +187,12 @@ def written(session: Session, line: Line) -> Iterator[int]:
 
 @dataclass
 class Record:
-    """The record of a run, a tracer of :class:`emulator.machine.session.Session`.
+    """The record of a run. An instance is a tracer of :class:`emulator.machine.session.Session`.
 
-    ``times`` has the work at the beginning of each statement.  ``writers`` maps a field to the card that wrote it last
-    and the number of that statement in the run.  ``stages`` has the successive hulls as :func:`picture` returns them.
-    ``repeats`` is 0, or the number of statements after which the run has returned to an earlier state: without an
-    action of the operator, it never ends.
+    ``times`` has the work done before each statement. ``writers`` maps a field to the card that last wrote it and the
+    number of the writing statement in the run. ``stages`` has the successive hulls as :func:`picture` returns them.
+    ``repeats`` is 0 until the run returns to an earlier state; then it is the number of statements since that state.
+    Such a run never ends without an action of the operator.
     """
 
     program: Program | None = None
@@ -191,11 +203,11 @@ class Record:
     _is_final: bool = False
     _is_new: bool = True
     repeats: int = 0
-    # The statements between two assignments to coordinates, and the state before the first of these assignments.
+    # The indices of statements between two assignments to coordinates, and the state before the first assignment.
     _torn: frozenset[int] = frozenset()
     _whole: tuple[list[Any], list[Any]] | None = None
     _switches: list[int] = field(default_factory=list)
-    # By statement: the numbers of its executions at which the state was kept, and the states.
+    # For each statement: the kept states, each with the number of the statement in the run.
     _states: dict[int, list[tuple[int, tuple[Any, ...]]]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -223,8 +235,9 @@ class Record:
             self.stages.append(picture(session) | {"final": self._is_final})
 
     def _recognise(self, line: Line, session: Session) -> None:
-        """Compare the state of the run with the states that were kept before the same statement.  A run that returns to
-        an earlier state repeats itself.
+        """Compare the state of the run with the states that were kept before the same statement.
+
+        A run that returns to an earlier state repeats itself.
         """
         count, state, numbers = len(self.times), session.state, session.options.numbers
         if session.switches != self._switches:
@@ -238,7 +251,7 @@ class Record:
             self._states.setdefault(line.index, []).append((count, _determining(session)))
 
     def forget(self) -> None:
-        """Forget the states before an action of the operator, on which the rest of the run also depends."""
+        """Forget the kept states, because an action of the operator may change the rest of the run."""
         self.repeats, self._states = 0, {}
 
     def take(self) -> list[int]:
@@ -249,7 +262,8 @@ class Record:
     def picture(self, session: Session) -> dict[str, Any]:
         """Return the picture of the present variables, or of the last stage if the hull is complete.
 
-        While a program moves a point, one coordinate after the other, the picture is that of the state before.
+        A program moves a point by assigning its coordinates one after the other. Meanwhile the picture shows the state
+        before the first assignment.
         """
         if self._is_final:
             return self.stages[-1]
@@ -257,7 +271,7 @@ class Record:
 
 
 def _torn(program: Program) -> frozenset[int]:
-    """Return the statements that assign a coordinate directly after a statement that assigns one."""
+    """Return the indices of statements that assign a coordinate directly after another such statement."""
     coordinates = {*_SPACE, *_FLAT[1]}
     moves = set()
     for instruction, statement in zip(program.code, program.statement_numbers, strict=True):
@@ -269,7 +283,7 @@ def _torn(program: Program) -> frozenset[int]:
 
 
 def _determining(session: Session) -> tuple[Any, ...]:
-    """Return what determines the rest of a run with the same switches: storage, accumulators and cards read."""
+    """Return the storage, the accumulators and the number of cards read, which determine the rest of a run."""
     state = session.state
     registers = (state.fac, state.fixed, state.last_card, session.devices.position)
     return list(state.values), list(state.kinds), *registers

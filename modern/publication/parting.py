@@ -1,8 +1,8 @@
 """Compare the result of the 1963 programs with the true hull, for points that a visitor of the site enters.
 
-The module returns plain data and does not need numpy, so that it runs in the browser.  It computes the true hull by
-testing every plane through three points (:func:`true_hull`), which is fast enough for 51 points.  This method shares no
-code with the programs, the port or the exact hull; the tests compare it with the exact hull.
+The module returns plain data and needs no numpy, so that it runs in the browser. The function :func:`true_hull` tests
+every plane through three points, which is fast enough for 51 points. It shares no code with the programs, the port or
+the exact hull; the tests compare it with the exact hull.
 """
 
 from collections.abc import Iterator, Sequence
@@ -32,12 +32,13 @@ Whole = tuple[int, int, int]
 
 
 def parted(text: str) -> dict[str, Any]:
-    """Compare the hull that the 1963 programs find with the true hull, for points as text, one point per line.
+    """Compare the hull that the 1963 programs find with the true hull. ``text`` has one point on each line.
 
-    The answer has ``points`` (as typed), and ``true`` and ``found`` for the two hulls.  Each hull has ``vertices``
-    (indices from 0) and ``faces`` (loops of indices; a polygon or a line is one face).  ``says`` are messages about
-    the run, ``reason`` explains a run without a hull, and ``part`` names the first branch that exact arithmetic takes
-    differently; these are the sentences of ``hull --explain``.  For invalid input the answer has only ``refused``.
+    The answer has ``points`` as typed, the hull ``true`` and the hull ``found`` by the programs. Each hull has
+    ``vertices`` (indices from 0) and ``faces`` (loops of indices; a polygon or a line is one face). ``says`` has
+    messages about the run. ``reason`` explains a run without a hull, and ``part`` names the first branch that exact
+    arithmetic takes differently, both in the sentences of ``hull --explain``. For invalid input the answer has only
+    ``refused``, a message.
     """
     try:
         parsed = parse_bytes(text.encode(), "points")
@@ -84,10 +85,10 @@ def scaled(points: Sequence[tuple[Fraction, Fraction, Fraction]]) -> list[Whole]
 def true_hull(points: Sequence[Whole]) -> tuple[int, tuple[tuple[int, ...], ...]]:
     """Return the dimension of the hull and its faces as loops of indices.
 
-    A polygon has one face, a line the loop of its two ends, and a point the loop of itself.  Only the first of equal
-    points is used.  A loop has corners only, not the other points on its edges or in its face.
+    A polygon has one face. A segment is the loop of its two ends, and a point is the loop of itself. A loop contains
+    only corners, not the other points on its edges or in its face. Of equal points, only the first is used.
     """
-    # Extend from a point to a line, a plane and space, and stop as soon as no point leaves the flat.
+    # Extend the hull from a point to a line, a plane and space, and stop if no point lies outside.
     places = sorted({point: n for n, point in reversed(list(enumerate(points)))}.values())
     first = places[0]
     second = next((n for n in places if points[n] != points[first]), None)
@@ -177,7 +178,7 @@ def _program_hull(run: HullRun, typed: Sequence[Sequence[str]]) -> tuple[list[st
 
 
 def _in_order(points: Sequence[Whole], loop: Sequence[int]) -> tuple[int, ...]:
-    """Return the corners of a face, as the programs punched them, in their order around the face."""
+    """Sort the corners of a face that the programs punched into their order around the face."""
     corners = [n for n in loop if n >= 0]
     for a, b, c in combinations(corners, 3):
         normal = cross(minus(points[b], points[a]), minus(points[c], points[a]))
@@ -187,7 +188,7 @@ def _in_order(points: Sequence[Whole], loop: Sequence[int]) -> tuple[int, ...]:
 
 
 def _differences(true_vertices: set[int], punched: set[int], points: Sequence[Whole]) -> list[str]:
-    """Describe how the vertices of the two hulls differ; points are counted from 1, and equal points count as one."""
+    """Describe how the vertices of the two hulls differ, with points counted from 1. Equal points count as one."""
     true_points, punched_points = {points[n] for n in true_vertices}, {points[n] for n in punched}
     missed = [f"point {n + 1}" for n in sorted(true_vertices) if points[n] not in punched_points]
     extra = [f"point {n + 1}" for n in sorted(punched) if points[n] not in true_points]

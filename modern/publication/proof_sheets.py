@@ -30,7 +30,7 @@ _STEPS_OF_QUESTIONS = (
 
 
 def files(sheet: Sheet) -> dict[str, str]:
-    """Return the text files of a proof sheet by name: the HTML form, and the table to fill in."""
+    """Return the text files of a proof sheet by name: the HTML form and the CSV table."""
     stem = f"page-{int(sheet.page):03}"
     return {f"{stem}.html": html(sheet), f"{stem}.csv": table(sheet)}
 

@@ -1,7 +1,7 @@
 """Intermediate results of three papers as objects in space: hidden lines, cells of a ball, octants of a hull.
 
-The objects have no size or colour; ``site/pages/papers.py`` draws them.  For the fourth paper, Appel and Will, that
-module draws the convex edges and loops that :mod:`modern.papers.appel_will` returns.
+The objects have no colour; ``site/pages/papers.py`` draws them. For the fourth paper, Appel and Will, that module draws
+the convex edges and loops that :mod:`modern.papers.appel_will` returns.
 """
 
 from collections.abc import Iterable, Iterator
@@ -31,7 +31,9 @@ from modern.papers.yau_srihari.quadtree import Quadtree, ceiling, sons_of
 EYE: Eye = (24, -55, 29)
 # A direction of view from which all three axes point towards the eye.
 ABOVE: Eye = (57, 31, 43)
-# The kinds of strokes; a ``removed`` stroke is one that the step of the picture removes.
+# The diameter in voxels of the ball in the picture of cells.
+DIAMETER = 5
+# The kinds of strokes. The step that a picture shows removes the strokes of the kind ``removed``.
 SEEN, EDGE_OF_CONTOUR, HIDDEN, REMOVED = "seen", "contour", "hidden", "removed"
 
 
@@ -54,7 +56,10 @@ class Pane:
 
 @dataclass(frozen=True, slots=True)
 class Plate:
-    """The picture of one step of a method: its name, line segments, faces, and points (True for a hidden point)."""
+    """The picture of one step of a method.
+
+    ``points`` has pairs of a point and a truth value, which is True for a hidden point.
+    """
 
     name: str
     strokes: tuple[Stroke, ...] = ()
@@ -71,12 +76,14 @@ _WHOLE: Spans = [(Fraction(0), Fraction(1))]
 
 
 @cache
-def hidden_lines(name: str = "house") -> tuple[Eye, tuple[Plate, ...]]:
-    """Draw a scene in four steps (Nakamae and Nishita, sections 3.1 to 3.5), and return the eye and the steps.
+def hidden_lines() -> tuple[Eye, tuple[Plate, ...]]:
+    """Draw the scene ``house`` in four steps (Nakamae and Nishita, sections 3.1 to 3.5), and return the eye and the
+    steps.
 
-    The steps after the first remove edges between faces turned away, parts behind contours, and ghost lines.
+    The first step has all lines. The others remove edges between faces that are turned away, parts behind contours, and
+    ghost lines.
     """
-    model = scene(name)
+    model = scene("house")
     x, y, z = (int(number) for number in model.sight.eye)
     observer = model.sight.observer(model.make)
     with_ghosts, final = draw(model.make, observer, without=(GHOSTS,)), draw(model.make, observer)
@@ -137,22 +144,21 @@ def _at(a: Vector, b: Vector, share: Fraction) -> Vector:
 
 @dataclass(frozen=True, slots=True)
 class Cells:
-    """A small ball of voxels and its hull as pictures, with the numbers of cells by dimension.
+    """Pictures of a ball of voxels and its hull, and their numbers of cells.
 
-    ``counts`` has for each complex its name and the numbers of its 0-, 1-, 2- and 3-cells.  ``hull`` is the cell list
-    of the hull with coplanar triangles merged.
+    ``counts`` has for each complex its name and the numbers of its 0-, 1-, 2- and 3-cells. ``hull`` is the cell list of
+    the hull with coplanar triangles merged.
     """
 
-    diameter: int
     plates: tuple[Plate, ...]
     counts: tuple[tuple[str, tuple[int, int, int, int]], ...]
     hull: CellList
 
 
 @cache
-def cells(diameter: int = 5) -> Cells:
-    """Return pictures of a ball of voxels and its hull, and the numbers of their 3-cells and boundary cells."""
-    volume = ball(diameter)
+def cells() -> Cells:
+    """Return the pictures and the numbers of cells of a ball of voxels with a diameter of ``DIAMETER``."""
+    volume = ball(DIAMETER)
     polyhedron = voxel_hull(volume, order=RASTER).polyhedron
     counts = [("the ball's voxels and their boundary", (*_boundary(volume), volume.count))]
     triangles, merged = ("its hull, as triangles", "its hull, coplanar triangles merged")
@@ -178,7 +184,7 @@ def cells(diameter: int = 5) -> Cells:
         Plate("edges", strokes),
         Plate("faces", panes=tuple(panes)),
     )
-    return Cells(diameter, plates, tuple(counts), polyhedron.faces)
+    return Cells(plates, tuple(counts), polyhedron.faces)
 
 
 _GAP = Fraction(1, 8)  # the share of a cell that is omitted at each end, so that adjacent cells are visibly separate
@@ -208,7 +214,7 @@ def _cube(low: Iterable[int], side: int) -> Polyhedron:
 
 
 def _drawn(solids: list[Polyhedron], eye: Eye) -> tuple[Stroke, ...]:
-    """Draw solids without their hidden lines.  Where two solids touch, the edges of both are drawn."""
+    """Draw solids without their hidden lines. If two solids touch, the edges of both are drawn."""
     drawing = draw(solids, parallel(_vector(eye)), check=False)
     strokes: list[Stroke] = []
     for piece in drawing.pieces:
@@ -248,10 +254,11 @@ class Quadrant:
 
 @dataclass(frozen=True, slots=True)
 class Level:
-    """A level of the trees of a hull; level 0 is the whole cube.
+    """A level of the octree and the quadtree of a hull. Level 0 is the whole cube.
 
-    ``quadrants`` are those of the ceiling, divided down to this level.  ``full``, ``divided`` and ``empty`` are the
-    numbers of octree nodes at this level.  ``plate`` shows the full cubes down to this level.
+    ``quadrants`` are the squares of the quadtree, which has the height of the hull's ceiling over each square, divided
+    down to this level. ``full``, ``divided`` and ``empty`` count the nodes of the octree at this level. ``plate`` shows
+    the full cubes down to this level.
     """
 
     number: int
@@ -262,13 +269,13 @@ class Level:
     plate: Plate
 
 
-# The length of the three rods in the picture of the octree, in voxels.
+# The length in voxels of the three rods in the picture of the octree.
 RODS = 8
 
 
 @cache
 def rods() -> tuple[OctreeHull, tuple[Level, ...]]:
-    """Return the digital hull of three rods of voxels along the axes, computed with octrees, and its levels."""
+    """Return the digital hull of three rods of voxels along the axes, and the levels of its octree and quadtree."""
     along = [[k if axis == own else 0 for axis in range(3)] for own in range(3) for k in range(RODS)]
     hull = octree_hull(listed(np.unique(np.array(along), axis=0), "three rods"))
     top = ceiling(hull.hull)

@@ -1,12 +1,13 @@
 """Write a text of the edition as TEI P5: its witness with all emendations, and a program's commentary.
 
-Every line of the witness is an ``ab`` element, and parallel segmentation holds the readings of a passage in ``app``.
-Elements outside ``app`` hold what no source has: ``choice`` holds a modern patch, ``space`` and ``surplus`` hold
-blanks that the edition adds and removes, and ``seg`` holds a displaced piece. A ``transpose`` element in the header
+Every line of the witness is an ``ab`` element. By parallel segmentation, an ``app`` element in a line holds the
+readings of a passage. Other elements hold what no source has: ``choice`` a modern patch, and ``space`` and ``surplus``
+the blanks that the edition adds and removes. ``seg`` holds a displaced piece, and a ``transpose`` element in the header
 names the ``anchor`` before which the piece belongs. Each row of the apparatus has one ``app`` with its reasons; a row
-that has no reading of its own is documented by an ``app`` of ``standOff``. ``tei_schema`` describes every element,
-``tei_header`` writes the header, ``tei_register`` writes the verdicts on the statements, and ``tei_reading`` restores
-witness, corrected text and cards.
+that has no reading of its own is documented by an ``app`` of ``standOff``.
+
+The module ``tei_schema`` describes every element, ``tei_header`` writes the header, ``tei_register`` writes the
+verdicts on the statements, and ``tei_reading`` restores witness, corrected text and cards from a document.
 
 Source: TEI P5 Guidelines, chapter 2 (header), 11.3.4.5 (transposition), 12.1 (apparatus entries), 12.2.3 (parallel
 segmentation), 16.10 (stand-off markup), 18 (feature structures).
@@ -35,10 +36,10 @@ _MODEL = f'<?xml-model href="{FILE_NAME}" type="application/xml" schematypens="h
 
 @dataclass(frozen=True, slots=True)
 class _Edition:
-    """A text while it is written.
+    """The state of writing a text.
 
-    ``pieces`` are the contents of the displaced pieces by row and number.  ``app_counts`` counts the app elements
-    written so far for each row.  ``notes`` are the comments that stand before a line.
+    ``pieces`` has the contents of the displaced pieces by row and number. ``app_counts`` counts the app elements that
+    have been written for each row. ``notes`` has the comments by the id of the line before which they stand.
     """
 
     text: Text
@@ -54,9 +55,10 @@ def documents() -> tuple[str, ...]:
 
 
 def tei(name: str, version: str) -> str:
-    """Return a TEI document (``program1``, ``chapter6``, ``appel_will_1976``, ``statements-thesis``, ...).
+    """Return a TEI document by its name, such as ``program1``, ``chapter6``, ``appel_will_1976`` or
+    ``statements-thesis``.
 
-    ``version`` is the version of the project.  Raise KeyError for an unknown name.
+    ``version`` is the version of the project. Raise KeyError for an unknown name.
     """
     root = Element("TEI", {"xmlns": TEI, ID: name, LANG: "en"})
     if name in REGISTERS:
@@ -68,7 +70,7 @@ def tei(name: str, version: str) -> str:
 
 
 def archive(version: str) -> dict[str, str]:
-    """Return all documents, the schema to which they refer and the ODD of the schema, as texts by file name."""
+    """Return all documents, the schema that they name, and the ODD of the schema, as texts by file name."""
     return {f"{name}.xml": tei(name, version) for name in documents()} | {FILE_NAME: schema(), "hull1620.odd": odd()}
 
 
@@ -112,7 +114,7 @@ def _pieces_of(pieces: Iterable[Piece]) -> Iterable[tuple[tuple[str, int], tuple
 
 
 def _witness(div: Element, edition: _Edition, lines: Iterable[Segments]) -> None:
-    """Write every line of the witness in order, each followed by the lines that the apparatus inserts after it."""
+    """Write every line of the witness in order. Lines that the apparatus inserts follow the line before them."""
     groups: dict[str, list[Segments]] = {}  # each line of the witness with the lines inserted after it
     last = ""
     for line in lines:
@@ -134,7 +136,7 @@ def _witness(div: Element, edition: _Edition, lines: Iterable[Segments]) -> None
 
 
 def _ab(div: Element, edition: _Edition, place: str, kind: str, pieces: tuple[Piece, ...]) -> None:
-    """Write a line of the witness, or an inserted line, as an ``ab`` element with an id."""
+    """Write a line as an ``ab`` element. ``place`` is the end of its id and ``kind`` its type."""
     attributes = {ID: f"{edition.text.id}-{place}", "type": kind, _SPACE: "preserve"}
     number = place.removeprefix("l") if place.startswith("l") else ""
     ab = SubElement(div, "ab", attributes | ({"n": number} if number else {}))
@@ -172,7 +174,7 @@ def _write(parent: Element, edition: _Edition, pieces: Iterable[Piece]) -> None:
 
 
 def _app(parent: Element, edition: _Edition, place: Place) -> None:
-    """Write the readings of a row.  Only its first app has the id of the row and the notes; the others refer to it."""
+    """Write the readings of a row at one place. The first ``app`` of a row has its id and its notes."""
     row = place.row
     edition.app_counts[row.id] = edition.app_counts.get(row.id, 0) + 1
     first = edition.app_counts[row.id] == 1
@@ -205,7 +207,7 @@ def _notes(app: Element, row: Row) -> None:
 
 
 def _features(parent: Element, values: Mapping[str, object]) -> None:
-    """Write a mapping as a TEI feature structure of the type ``kind``."""
+    """Write a mapping as a TEI feature structure; the value of the key ``kind`` is its type."""
     structure = SubElement(parent, "fs", {"type": str(values["kind"])} if "kind" in values else {})
     for key, value in values.items():
         if key != "kind":
@@ -228,7 +230,7 @@ def _value(parent: Element, value: object) -> None:
 
 
 def _commentary(text: Text) -> dict[str, Element]:
-    """Return the comment on each block of a program as a note, by the id of the first line of the block."""
+    """Return the comments on the blocks of a program as notes, by the id of the first line of each block."""
     lines = [line.id for line in build(text)]
     notes = {}
     for number, block in enumerate(commentary(text.id).blocks, 1):
@@ -280,7 +282,7 @@ def _place(line: str) -> str:
 
 
 def _indent(root: Element) -> None:
-    """Indent the document, except the ``ab`` elements, in which blanks are significant."""
+    """Indent the document, but not inside ``ab`` elements, in which blanks are significant."""
     originals = [(element, element.text, element.tail) for ab in root.iter("ab") for element in ab.iter()]
     indent(root, " ")
     for element, content, tail in originals:

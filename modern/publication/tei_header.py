@@ -22,7 +22,7 @@ LAYERS = {
     "translation": "a proposal of chapter 7: the origin is moved to the inside point C",
     "corrected": "corrections by the project of faults of the original programs",
 }
-# Modern changes of a program; they are no readings of any source.
+# The layers with modern changes of a program, which are not readings of a source.
 PATCHES = ("epsilon", "translation", "corrected")
 _CAUSES = {
     "ocr": "the error is the OCR's",
@@ -37,8 +37,8 @@ _CAUSES = {
 class Heading:
     """The facts of a header.
 
-    ``sha256`` is the hash of the excerpt, empty for a register.  ``text`` is the text whose apparatus the document
-    contains, or None.
+    ``sha256`` is the hash of the excerpt, or empty for a register. ``text`` is the text with the apparatus that the
+    document contains, or None for a register.
     """
 
     title: str
@@ -49,14 +49,14 @@ class Heading:
 
 
 def add(parent: Element, name: str, content: str, **attributes: str) -> Element:
-    """Add an element with a text to the element ``parent`` and return the new element."""
+    """Add an element that contains ``content`` to the element ``parent``, and return the new element."""
     child = SubElement(parent, name, attributes)
     child.text = content
     return child
 
 
 def header(root: Element, heading: Heading, moves: Element | None = None) -> Element:
-    """Write the header and return its ``classDecl``.  ``moves`` is the list of transpositions."""
+    """Write the header and return its ``classDecl`` element. ``moves`` is the ``listTranspose`` element, if any."""
     document, rows = heading.document, heading.text.rows if heading.text else ()
     dates = sorted({row.date for row in rows if row.date}, reverse=True)
     head = SubElement(root, "teiHeader")
@@ -106,7 +106,7 @@ def _responsible(title: Element, name: str, task: str, holder: str) -> None:
 
 
 def _date(parent: Element, year: str) -> None:
-    """Write a date.  A year that is only a lower bound becomes ``notBefore``."""
+    """Write a year, or ``notBefore`` if the year is only a lower bound (``1971 or later``)."""
     add(parent, "date", year, **{"notBefore" if "or later" in year else "when": year[:4]})
 
 

@@ -1,7 +1,7 @@
-"""Restore witness, corrected text, deck and cards from a TEI document of this edition.
+"""Restore the witness, the corrected text, the deck and the cards from a TEI document of this edition.
 
-The module is the inverse of :mod:`modern.publication.tei`.  It shares no code with that module or with the apparatus,
-so that a successful round trip proves that the document is complete.
+The module is the inverse of :mod:`modern.publication.tei`. It shares no code with that module or with the apparatus, so
+that a successful round trip proves that the document is complete.
 """
 
 from collections.abc import Collection, Iterator, Mapping
@@ -15,11 +15,11 @@ _ID = "{http://www.w3.org/XML/1998/namespace}id"
 
 
 class TeiError(EmulatorError, ValueError):
-    """Raised for a file that is not a TEI document of this edition, or that lacks the requested part."""
+    """Raised for a file that is not a TEI document of this edition, or that lacks a requested part."""
 
 
 def parsed(name: str, source: str) -> Element:
-    """Parse a document and return its root element.  Raise TeiError with the name of the file if that fails."""
+    """Parse a document and return its root element. Raise TeiError with the name of the file if it is not TEI."""
     try:
         root = fromstring(source)
     except ParseError as error:
@@ -39,13 +39,13 @@ def layers(root: Element) -> tuple[str, ...]:
 
 
 def printed_layers(root: Element) -> frozenset[str]:
-    """Return the layers of the edited text."""
+    """Return the layers whose changes belong to the edited text."""
     edited = [category for category in root.iter(_TEI + "category") if category.get(_ID) == "layers-edited"]
     return frozenset(name.get(_ID, "").removeprefix("layer-") for group in edited for name in group[1:])
 
 
 def witness(root: Element) -> str:
-    """Return the witness as it is in its file, with page marks."""
+    """Return the witness exactly as its file has it, with page marks."""
     state = _State.of(root, frozenset())
     lines: list[str] = []
     for element in _listing(root):
@@ -57,19 +57,25 @@ def witness(root: Element) -> str:
 
 
 def corrected(root: Element, selected: Collection[str] | None = None) -> str:
-    """Return the text with the selected layers, by default those of the edited text (for a listing, the deck)."""
+    """Return the text with the changes of the selected layers.
+
+    By default these are the layers of the edited text. For a listing, the result is the deck.
+    """
     state = _State.of(root, printed_layers(root) if selected is None else selected)
     lines = (state.reading(ab) for ab in _listing(root) if ab.tag == _TEI + "ab" and ab.get("type") == "line")
     return "".join(line + "\n" for line in lines if line.strip())
 
 
 def parts(root: Element) -> tuple[str, ...]:
-    """Return the names of the device files in a document."""
+    """Return the names of the files of cards and typed lines in a document, such as ``example4/program1.deck``."""
     return tuple(div.get("n", "") for div in _devices(root))
 
 
 def part(root: Element, name: str) -> str:
-    """Return a device file with one line for each card.  Raise TeiError if the document does not have it."""
+    """Return a file of cards or typed lines that the document contains, with one line for each card.
+
+    Raise TeiError if the document does not contain a file of this name.
+    """
     for div in _devices(root):
         if div.get("n") == name:
             return "".join(_card(ab) + "\n" for ab in div.iterfind(_TEI + "ab"))
@@ -96,10 +102,10 @@ def _devices(root: Element) -> Iterator[Element]:
 
 @dataclass(frozen=True)
 class _State:
-    """The text with some of its changes made.
+    """The text after some of its emendations.
 
-    ``rows`` has the references (``#id``) of the ``app`` elements whose changes are made. ``pieces`` maps the reference
-    of each place to which text is moved to the ``seg`` element with that text.
+    ``rows`` has the references (``#id``) of the ``app`` elements whose emendations are made. ``pieces`` maps the
+    reference of each place to which text is moved to the ``seg`` element with that text.
     """
 
     rows: frozenset[str]
@@ -117,7 +123,7 @@ class _State:
         return cls(frozenset(rows), pieces)
 
     def reading(self, element: Element) -> str:
-        """Return the characters of a line, of a reading or of a piece in this state."""
+        """Return the characters of a line, a reading or a displaced piece in this state."""
         return (element.text or "") + "".join(self._part(child) + (child.tail or "") for child in element)
 
     def _part(self, child: Element) -> str:
@@ -138,7 +144,8 @@ class _State:
 
 
 def _is_ours(reading: Element) -> bool | None:
-    """Return True for a reading of the edition or of a lost state of a program, False for one of the OCR text.
+    """Return True for a reading of the edition or of a lost state of a program, and False for a reading of the OCR
+    text.
 
     Return None for a rejected reading and for an element that is no reading.
     """

@@ -1,8 +1,8 @@
 """Compile the project's ODD to RELAX NG.
 
-``hull1620.odd`` describes every element and attribute of the TEI documents, and what they mean here (TEI P5, chapter
-22).  It needs no processor of the TEI: each ``elementSpec`` replaces the definition of the TEI completely, so that
-content models name elements and not classes.
+The file ``hull1620.odd`` describes every element and attribute of the TEI documents, and what they mean here (TEI P5,
+chapter 22). The compiler needs no TEI software, because each ``elementSpec`` replaces the definition of the TEI
+completely and its content model names elements instead of classes.
 """
 
 from collections.abc import Iterable, Iterator
@@ -14,12 +14,12 @@ FILE_NAME = "hull1620.rng"
 _TEI = "{http://www.tei-c.org/ns/1.0}"
 _RNG = "http://relaxng.org/ns/structure/1.0"
 _DATATYPES = "http://www.w3.org/2001/XMLSchema-datatypes"
-# The wrapper of a pattern that occurs between the two given numbers of times.
+# The RELAX NG element around a pattern, by the least and the largest number of its occurrences.
 _OCCURRENCE = {("0", "1"): "optional", ("0", "unbounded"): "zeroOrMore", ("1", "unbounded"): "oneOrMore"}
 
 
 def odd() -> str:
-    """Return the ODD: the documentation of the project's use of TEI, from which the schema is compiled."""
+    """Return the ODD, which documents the project's use of TEI and from which the schema is compiled."""
     return files("modern").joinpath("publication", "hull1620.odd").read_text(encoding="utf-8")
 
 
@@ -54,7 +54,7 @@ def _children(specification: Element, name: str) -> Iterator[Element]:
 
 
 def _pattern(parent: Element, pattern: Element) -> None:
-    """Write a content model: references, sequences and alternatives with their numbers of occurrences."""
+    """Write a part of a content model: a reference, a text, or a sequence or choice of such parts."""
     wrapper = _OCCURRENCE.get((pattern.get("minOccurs", "1"), pattern.get("maxOccurs", "1")))
     target = parent if wrapper is None else SubElement(parent, wrapper)
     match pattern.tag.removeprefix(_TEI):
@@ -89,7 +89,9 @@ def _attribute_list(target: Element, entries: Element) -> None:
 
 
 def _values(attribute: Element, entry: Element) -> None:
-    """Write the values of an attribute: a closed list, or a datatype of XML Schema, once or many times."""
+    """Write the permitted values of an attribute: a closed list or a datatype of XML Schema, and one or several of
+    them.
+    """
     data = entry.find(f"{_TEI}datatype/{_TEI}dataRef")
     values = [item.get("ident", "") for item in entry.iterfind(f"{_TEI}valList/{_TEI}valItem")]
     if data is None:

@@ -1,7 +1,8 @@
-"""The verdict of exact arithmetic on a run at the desk: its first wrong decision, and the faults of its hull.
+"""The verdict of exact arithmetic on a run of the emulator's page: the first wrong decision, and the errors of the
+hull.
 
-The hull of the program is the one on the cards that it punched.  The true hull is computed from the points that it read
-(:func:`modern.publication.parting.true_hull`).
+The hull of the program is read from the cards that it punched. The true hull is computed from the points that the
+program read (:func:`modern.publication.parting.true_hull`).
 """
 
 from collections.abc import Sequence
@@ -25,7 +26,7 @@ from modern.publication.parting import Whole, scaled, true_hull
 from modern.thesis.cards import read_hull
 from modern.thesis.job import refusal, second_program
 
-# The units of work between two tests whether the repeated run never ends.
+# The work after which the run is interrupted, to test whether it repeats itself.
 _STRIDE = 10_000
 _PLURALS = {"vertex": "vertices"}
 Hull = dict[str, Any]
@@ -34,11 +35,12 @@ Hull = dict[str, Any]
 def verdict(program: Program, deck: Deck, options: Options) -> dict[str, Any]:
     """Compare a run with exact arithmetic, and its hull with the true hull.
 
-    The answer has ``lines``: the first decision that exact arithmetic would take differently, with the value and the
-    target in both arithmetics, or the reason why there is none.  ``statement`` is its number in the run.  ``says`` is a
-    sentence about the result.  ``hull`` is the true hull of the points of the first stage, and ``final`` the hull on
-    the cards.  In both, ``missed`` and ``extra`` are the points that only the true hull or only the program has as
-    vertices, and ``wrong`` lists the numbers of the faces that the other hull does not have.
+    In the answer, ``lines`` describe the first decision that exact arithmetic takes differently, with the value and the
+    target in both arithmetics. If there is no such decision, they give the reason. ``statement`` is the number of the
+    deciding statement in the run. ``says`` is a sentence about the result. ``hull`` is the true hull of the points of
+    the first stage, and ``final`` is the hull on the cards. Both have ``missed``, the vertices that only the true hull
+    has, ``extra``, the vertices that only the program's hull has, and ``wrong``, the numbers of the faces that the
+    other hull lacks.
     """
     record = panel.Record(program)
     executed: list[int] = []
@@ -79,7 +81,7 @@ def verdict(program: Program, deck: Deck, options: Options) -> dict[str, Any]:
 
 
 def _hulls(stages: Sequence[Hull], result: Result) -> tuple[dict[str, Hull], str]:
-    """Return the true hull, the hull of the program, and a sentence about their difference."""
+    """Return the two hulls by name, and a sentence about their difference."""
     first, last = stages[0], stages[-1]
     exact = [_exact(point) for point in first["points"]]
     points = scaled(exact)
@@ -127,13 +129,13 @@ def _exact(point: Sequence[float | Fraction]) -> tuple[Fraction, Fraction, Fract
 
 
 def _without(some: Sequence[int], others: Sequence[int], points: Sequence[Whole]) -> list[int]:
-    """Return the points of the first list that are equal to none of the second."""
+    """Return the indices in ``some`` whose points are not among the points of ``others``."""
     places = {points[n] for n in others}
     return [n for n in some if points[n] not in places]
 
 
 def _on(points: Sequence[Whole], face: Sequence[int], dimension: int) -> frozenset[Whole]:
-    """Return the points in the plane or on the line of a face, or no points if it does not support the hull."""
+    """Return the points in the plane (or on the line) of a face, or no points if it does not support the hull."""
     a, b = points[face[0]], points[face[1]]
     if dimension == 3:
         normal = cross(minus(b, a), minus(points[face[2]], a))

@@ -11,29 +11,28 @@ from dataclasses import dataclass, field
 
 from markdown_it import MarkdownIt
 from markdown_it.token import Token
-from mdit_py_plugins.deflist import deflist_plugin
 
-# A part of a page of the site that is made from data, and the fence that replaces it.
+# The directive of a part that the site generates from data, and the language of the code fence that replaces it.
 _MADE = re.compile(r"^:::\{made\} (.*)\n:::$", re.MULTILINE)
 _MADE_FENCE = "made "
 _DIRECTIVE = re.compile(r"^:::\{.*?^:::$\n?|^```\{.*?^```$\n?", re.MULTILINE | re.DOTALL)
 _HEAD = re.compile(r"\A---\n.*?\n---\n", re.DOTALL)
 _COMMENT = re.compile(r"<!--.*?-->\n?", re.DOTALL)
-_ROLE = re.compile(r"\{([a-z]+)\}\Z")
 _FIRST_UNSUPPORTED = 0x2E80  # the first code point of the East Asian scripts, which the fonts of Typst do not contain
 # A number with a sign, a unit, or an interval; such cells are aligned to the right.
 _NUMBER = re.compile(r"[-−+±]?[\d.,]+(?:[\s%×·^/]|\([−\d.,\sto–-]*\)|[\d.,⁻⁰¹²³⁴-⁹-])*|-|–|")
-# Widths in characters: of a table, the largest weight of a column, of a cell that is not a sentence, the default for
-# the longest word, of the gap between columns, and of a name that stays on one line.
+# Widths in characters: a table has at most _LINE, and the gap between columns _GAP. A column counts with at most _LONG.
+# A cell of more than _CELL is a sentence. The longest word has _WORD by default, and a name of at most _NAME stays on
+# one line.
 _LINE, _LONG, _CELL, _WORD, _GAP, _NAME = 104, 90, 40, 12, 2, 16
 # The normal and the smallest font size of tables in points.
 _USUAL, _SMALL = 8.5, 6.5
-# The size of lines of a program in points, the smallest, and the size of a letter times the letters that fit on a line.
+# The normal and the smallest font size of programs in points, and the product of font size and letters on a line.
 _CODE, _LEAST, _LETTERS = 7.8, 6.2, 725
 
 
 def string(text: str) -> str:
-    """Return a Typst string.  A character that the fonts lack, such as a Chinese full stop, becomes its code."""
+    """Return a Typst string. Characters that the fonts lack, such as a Chinese full stop, become Unicode numbers."""
     text = "".join(c if ord(c) < _FIRST_UNSUPPORTED else f"[U+{ord(c):04X}]" for c in text)
     escaped = text.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n").replace("\t", "  ")
     return f'"{escaped}"'
@@ -56,13 +55,13 @@ def block(text: str) -> str:
 
 
 def call(name: str, *content: str, **named: str) -> str:
-    """Return a call of a Typst function with pieces of markup; ``named`` arguments are code."""
+    """Return a call of a Typst function with markup as ``content``. The ``named`` arguments are Typst code."""
     arguments = "".join(f"{key.replace('_', '-')}: {value}, " for key, value in named.items())
     return f"#{name}({arguments}{', '.join(f'[{piece}]' for piece in content)})"
 
 
 def label(*parts: str) -> str:
-    """Return a label made from texts; a character that labels may not contain is replaced by its code."""
+    """Return a label made from texts. A character that is not allowed in labels is replaced by its code."""
     joined = "--".join(parts)
     return "".join(c if c.isalnum() and c.isascii() else "-" if c in "-_ " else f".{ord(c):x}." for c in joined)
 
@@ -70,11 +69,6 @@ def label(*parts: str) -> str:
 def heading(title: str, level: int, place: str) -> str:
     """Return a heading with its label as Typst markup."""
     return f"{'=' * level} {say(title)} <{place}>\n\n"
-
-
-def to(place: str, content: str) -> str:
-    """Return a Typst reference to a label: the given markup, followed by the page number."""
-    return f"#to(<{place}>)[{content}]"
 
 
 def table(
@@ -86,9 +80,10 @@ def table(
 ) -> str:
     """Return a table as Typst markup.
 
-    ``widths`` are the longest cell of each column in characters, ``longest`` the longest words.  ``right`` are the
-    columns of numbers, which are aligned to the right.  A table that is too wide is split: the columns that name the
-    rows stand in both halves.  Raises ValueError for a table that would need smaller letters than ``_SMALL``.
+    ``widths`` are the longest cell of each column in characters, and ``longest`` its longest word. ``right`` has the
+    indices of the columns of numbers, which are aligned to the right. A table that is too wide is split, and both
+    halves have the columns that name the rows. Raise ValueError for a table that would need smaller letters than
+    ``_SMALL``.
     """
     rows = list(rows)
     longest = [min(width, _WORD) for width in widths] if longest is None else longest
@@ -117,11 +112,11 @@ def table(
 
 
 def columns_of(widths: Sequence[int], longest: Sequence[int]) -> tuple[float, list[str]]:
-    """Return the font size of a table in points and the widths of its columns in Typst's notation.
+    """Return the font size of a table in points, and the widths of its columns in Typst's notation.
 
-    If all cells fit on one line, columns get their natural width.  If no cell is a sentence, the font may be reduced
-    until the cells fit.  Otherwise every column is at least as wide as its longest word, the remaining space goes to
-    columns with longer cells, and the font is reduced if even the words do not fit.
+    If all cells fit on one line, columns get their natural width. If no cell is a sentence, the font may be reduced
+    until the cells fit. Otherwise every column is at least as wide as its longest word, and columns with longer cells
+    share the remaining space. The font is reduced if even the words do not fit.
     """
     room = _LINE - _GAP * len(widths)
     if sum(widths) <= room:
@@ -160,7 +155,7 @@ class Markdown:
         text = _MADE.sub(rf"~~~{_MADE_FENCE}\1\n~~~", _COMMENT.sub("", _HEAD.sub("", source)))
         # On paper an interval may stand below its estimate, but is not broken itself.
         text = _DIRECTIVE.sub("", text).replace("\N{NO-BREAK SPACE}(", " (")
-        tokens = MarkdownIt("commonmark").enable("table").use(deflist_plugin).parse(text)
+        tokens = MarkdownIt("commonmark").enable("table").parse(text)
         return "".join(self._blocks(tokens))
 
     def _blocks(self, tokens: Sequence[Token]) -> Iterator[str]:
@@ -192,15 +187,9 @@ class Markdown:
             case "fence" | "code_block":
                 is_made = token.info.startswith(_MADE_FENCE)
                 return self.made(token.info.removeprefix(_MADE_FENCE)) if is_made else block(token.content)
-            case "blockquote_open":
-                return call("quote", "".join(self._blocks(inner)), block="true") + "\n\n"
             case "table_open":
                 return self._table(inner)
-            case "dl_open":
-                return self._definitions(inner)
-            case "hr":
-                return "#line(length: 100%, stroke: 0.4pt)\n\n"
-        return ""
+        raise ValueError(f"{self.name}: the book cannot print an element of the type {token.type}")
 
     def _items(self, tokens: Sequence[Token]) -> list[str]:
         items, start = [], 0
@@ -209,20 +198,6 @@ class Markdown:
             items.append("".join(self._blocks(tokens[start + 1 : end])))
             start = end + 1
         return items
-
-    def _definitions(self, tokens: Sequence[Token]) -> str:
-        items, start, term = [], 0, ""
-        while start < len(tokens):
-            end = _end(tokens, start)
-            if tokens[start].type == "dt_open":
-                term = self._inline(tokens[start + 1])
-                place = label(self.name, self._slug(_plain(tokens[start + 1])))
-                term = f"#[{term}#[] <{place}>]"
-            else:
-                definition = "".join(self._blocks(tokens[start + 1 : end]))
-                items.append(call("terms.item", term, definition).removeprefix("#"))
-            start = end + 1
-        return f"#terms({', '.join(items)})\n\n"
 
     def _table(self, tokens: Sequence[Token]) -> str:
         rows: list[list[Token]] = []
@@ -247,7 +222,7 @@ class Markdown:
 
     def _inline(self, token: Token) -> str:
         out: list[str] = []
-        ends: list[str] = []  # what closes each open link: nothing if the link has no target in the book
+        ends: list[str] = []  # the end of each open link: empty if the link has no target in the book
         for child in token.children or ():
             match child.type:
                 case "text":
@@ -258,7 +233,7 @@ class Markdown:
                 case "hardbreak":
                     out.append("#linebreak()")
                 case "code_inline":
-                    out.append(self._role(out, child.content))
+                    out.append(code(child.content))
                 case "em_open" | "strong_open":
                     out.append("#emph[" if child.type == "em_open" else "#strong[")
                 case "em_close" | "strong_close":
@@ -277,22 +252,6 @@ class Markdown:
                     # Typst moves the picture to the top or the bottom of a page.
                     out.append(f"#picture({string(file)}, {alt}, placement: auto)" if file else say(child.content))
         return "".join(out)
-
-    def _role(self, out: list[str], content: str) -> str:
-        """Translate text in backquotes: a role if ``{card}`` or another name precedes it, otherwise program text.
-
-        The name of a role is the end of the last string in ``out``; this method removes it there.
-        """
-        before = _ROLE.search(out[-1].removesuffix('";')) if out else None
-        if before is None:
-            return code(content)
-        out[-1] = say(out[-1][2:-2].removesuffix(before[0]).replace('\\"', '"').replace("\\\\", "\\"))
-        shown, _, rest = content.partition(" <")
-        target = rest.rstrip(">") or content
-        names = {"card": label("card", *target.split()), "row": label("row", target), "error": label("error", target)}
-        place = names.get(before[1], "") or self._target(f"{target}.md" if before[1] == "doc" else "")
-        markup = say(shown) if rest or before[1] in ("doc", "ref") else code(shown)
-        return to(place, markup) if place in self.known else markup
 
     @property
     def _folder(self) -> str:
@@ -318,19 +277,19 @@ class Markdown:
 
 
 def places(name: str, source: str) -> tuple[str, ...]:
-    """Return the labels of a document, of its headings and of the terms that it defines."""
+    """Return the labels of a document and of its headings."""
     markup = Markdown(name, (), lambda file: "").typst(source)
     return (label(name), *re.findall(r" <([\w.-]+)>(?=\n|\])", markup))
 
 
 def _is_title(paragraph: Token) -> bool:
-    """Return True if a paragraph is only bold text: the title of a table, which must stay on the page of the table."""
+    """Return True if a paragraph consists of bold text: the title of a table, which must stay on the table's page."""
     kinds = [child.type for child in paragraph.children or () if child.type != "text" or child.content]
     return kinds[:1] == ["strong_open"] and kinds.index("strong_close") == len(kinds) - 1
 
 
 def _end(tokens: Sequence[Token], start: int) -> int:
-    """Return the index of the token that closes the one at ``start``, or ``start`` if it opens nothing."""
+    """Return the index of the token that closes the element begun at ``start``, or ``start`` if it begins none."""
     depth = 0
     for index in range(start, len(tokens)):
         depth += tokens[index].nesting

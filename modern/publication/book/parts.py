@@ -1,7 +1,7 @@
 """The parts of the book that are generated from data: listings with their apparatus, charts, examples, statements.
 
-The facts are the same as on the site.  Notes refer to cards, not to lines or pages of the book, so that they do not
-depend on page breaks.
+The facts are the same as on the site. The textual notes refer to cards, not to lines or pages of the book, so that they
+do not depend on page breaks.
 """
 
 import re
@@ -29,9 +29,9 @@ from modern.study.report import raised
 _SENTENCE = re.compile(r"(?<=\.) (?=[A-Z])")
 # The longest reading in a note, in characters.
 _LONGEST = 120
-# Points for each pixel of a picture.
+# The size of a pixel of a picture in points.
 _PIXEL = 0.6
-# The height of a sheet of a flow chart that fits below a heading, and the size of a pixel, in millimetres.
+# The largest height of a sheet of a flow chart below a heading, and the size of a pixel, both in millimetres.
 _SHEET, _MILLIMETRES = 220, 25.4 / 96
 _FONTS = re.compile(r"font-family(=|:)\s*(\"[^\"]*\"|[^;\"}]*)")
 _SHORT = {"holds": "holds", "holds with a condition": "with a condition", "does not hold": "does not hold"}
@@ -52,9 +52,9 @@ def fitted(svg: str) -> str:
 
 
 def listings() -> Iterator[str]:
-    """Yield the listings of the programs with the commentary alongside, each followed by its textual notes.
+    """Yield the listings of the programs with the commentary next to the cards, each followed by its textual notes.
 
-    A variant of a program is shown only in the passages in which a card differs.
+    Of a variant of a program, only the passages are shown that contain a different card.
     """
     for name in programs.NAMES:
         listing, entry = facing(name), programs.built_in(name)
@@ -91,7 +91,7 @@ def listings() -> Iterator[str]:
 
 
 def _variables(name: str) -> Iterator[str]:
-    """Yield the table of the variables of a program, each with the blocks that set it as entries of the index."""
+    """Yield the table of a program's variables. Each name is also an entry of the book's index."""
     yield heading(f"Variables of {name}", 3, label("variables", name))
     rows = []
     for gloss in commentary(name).variables:
@@ -119,7 +119,7 @@ def _places(row: Row, listing: Facing) -> str:
 
 
 def _grouped(rows: Iterable[Row], places: Mapping[str, str] | None = None) -> Iterator[str]:
-    """Yield the textual notes on emendations; emendations of one kind with the same reason share a note.
+    """Yield the textual notes on emendations. Emendations of one kind with the same reason share a note.
 
     ``places`` names the cards that each row changes.
     """
@@ -158,7 +158,7 @@ def _ground(row: Row) -> str:
 
 
 def charts(save: SavePicture) -> Iterator[str]:
-    """Yield the flow charts of the listings, each sheet on a page and almost in its natural size."""
+    """Yield the flow charts of the listings. Each sheet has a page of its own and almost its natural size."""
     variants = [name for name in programs.NAMES if programs.built_in(name).text != name]
     yield say(f"The site also shows the flow chart of {', '.join(variants)}.") + "\n\n"
     for name in programs.NAMES:
@@ -205,7 +205,7 @@ def _head(row: Row) -> str:
 
 
 def _reading(text: str) -> str:
-    """Return a reading of a card as code, abbreviated in the middle if it is long."""
+    """Return a reading of a card as code. The middle of a long reading is omitted."""
     if len(text) > _LONGEST:
         text = f"{text[: _LONGEST // 2]} ... {text[-_LONGEST // 3 :]}"
     return code(text) if text else "–"

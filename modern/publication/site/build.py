@@ -22,7 +22,7 @@ _NOT_PUBLISHED = (".buildinfo", ".doctrees", "objects.inv", "_sources")
 
 
 def build(out: Path, docs: Path = ROOT / "docs", quiet: bool = False, wheel: Path | None = None) -> None:
-    """Build the site into a folder, which it replaces.  With ``wheel``, the emulator in the browser is included.
+    """Build the site into a folder, and replace an earlier site there. With ``wheel``, the site includes the emulator.
 
     Raise BuildError if the folder holds something else, if Sphinx is missing, or if Sphinx reports a warning.
     """
@@ -69,7 +69,10 @@ def _run_sphinx(docs: Path, out: Path, trees: Path, quiet: bool) -> None:
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Build into the named folder, by default dist/edition.  Return 0, or 2 after one line on standard error."""
+    """Build the site in the named folder, by default dist/edition.
+
+    Return 0, or 2 after a message of one line on standard error.
+    """
     out = Path(arguments[0]) if arguments else DIST / "edition"
 
     def summary() -> str:

@@ -1,4 +1,4 @@
-"""The witness and the rows of the apparatus in HTML, for the pages of listings and of printed examples."""
+"""HTML of the witness and of the rows of the apparatus, for the pages of listings and of printed examples."""
 
 from collections.abc import Iterable
 from functools import cache
@@ -33,7 +33,7 @@ CAUSES = {
 
 
 def entry(row: Row, places: Iterable[str], page: str) -> str:
-    """Return a row as an HTML article.  ``places`` are those of the cards that it changes on ``page``."""
+    """Return a row as an HTML article. ``places`` are the places of the cards on ``page`` that the row changes."""
     card_links = ", ".join(link(page, place, place) for place in places)
     head = element("h3", text("a", row.id, href=f"#{row.id}", cls="rowid"), cls="row-head")
     kind = escape(f"{row.layer}, {row.kind}; ") + text("strong", row.certainty)
@@ -57,7 +57,7 @@ def entry(row: Row, places: Iterable[str], page: str) -> str:
 
 
 def column(name: str, inner: str) -> str:
-    """Return a cell of a comparison; its name is read by screen readers and, in lower case, its class."""
+    """Return a cell of a comparison. Screen readers read its name, which in lower case is also its CSS class."""
     return element("div", text("span", f"{name} ", cls="sr") + inner, cls=name.lower())
 
 
@@ -67,7 +67,7 @@ def sign(character: str, meaning: str) -> str:
 
 
 def witness_line(page: str, line: int | str, source: int, inner: str) -> str:
-    """Return a line of the witness with its number; ``source`` is its line in the OCR text of the document."""
+    """Return a line of the witness with its number. ``source`` is the number of the line in the document's OCR text."""
     where = f"p. {page}, line {line} of the witness, {source} of the thesis's OCR text"
     return element("span", text("span", str(line), cls="line", title=where) + inner, cls="piece")
 

@@ -1,6 +1,6 @@
-"""The Sphinx extension: the directive ``made``, roles that refer to data, links to files, and the writer of the HTML.
+"""The Sphinx extension: the directive ``made``, links to files of the project, and the writer of the HTML.
 
-Templates (``docs/_templates``) make the frame of a page accessible.  The writer does the same for elements of the text.
+The templates (``docs/_templates``) make the frame of a page accessible. The writer does the same for the text.
 """
 
 import json
@@ -13,18 +13,15 @@ from typing import Any
 from docutils import nodes
 from sphinx import addnodes
 from sphinx.application import Sphinx
-from sphinx.domains.std import StandardDomain
 from sphinx.environment import BuildEnvironment
 from sphinx.util.docutils import SphinxDirective
 from sphinx.writers.html5 import HTML5Translator
 
-from modern.publication.site.made import Made, Part, make
+from modern.publication.site.made import Part, make
 from modern.publication.site.markup import element, relative, stacked, text
 from modern.publication.site.pages.addresses import places
 
-# Each role with the pattern of its labels: ``{name}`program3 KELEQ``` refers to ``name program3 keleq``.
-ROLES = {"card": "{}", "row": "{}", "name": "name {}", "error": "error {}"}
-# Files of the project that are no pages, with the pages that contain or replace them.
+# The pages that contain or replace files of the project.
 PAGES_OF_FILES = {
     "fortran_src/README.md": "text",
     "fortran_src/KNOWN-FAULTS.md": "known-faults",
@@ -43,16 +40,15 @@ class MadeDirective(SphinxDirective):
     final_argument_whitespace = True
 
     def run(self) -> list[nodes.Node]:
-        """Return the nodes of the generated sections. An unknown name or argument ends the build."""
+        """Return the nodes of the generated parts. An unknown name or argument ends the build with an error."""
         name, argument = self.arguments[0], "".join(self.arguments[1:])
         try:
             content = make(name, argument)
         except ValueError as error:
             raise self.error(f"made: {error}") from None
-        _register(self.env, content)
         top = nodes.container()
         stack: list[tuple[int, nodes.Element]] = [(0, top)]  # the open sections with their levels, the innermost last
-        for part in content.parts:
+        for part in content:
             inner = self._inner(part)
             if part.heading:
                 # A section closes the open sections of its own and of deeper levels.
@@ -81,9 +77,9 @@ _LONG = 8  # the number of sections from which a page gets a list of them that s
 _SECTION = re.compile(r"(?:Page |Sheet |Error )?(\d\S*?|E\d+)[.:]?(?= |$)")
 
 
-def _jump_list(content: Made) -> str:
-    """Return links to the sections of a long page, in a bar that stays at the lower edge of the window, or nothing."""
-    parts = [part for part in content.parts if part.heading and part.level == 1]
+def _jump_list(content: list[Part]) -> str:
+    """Return a bar of links to the sections of a long page, which stays in the window, or nothing for a short page."""
+    parts = [part for part in content if part.heading and part.level == 1]
     if len(parts) < _LONG:
         return ""
     names = ((match[1] if (match := _SECTION.match(part.heading)) else part.heading, part) for part in parts)
@@ -91,40 +87,12 @@ def _jump_list(content: Made) -> str:
     return element("nav", text("span", "Jump to") + links, cls="jump", aria_label="Sections of this page")
 
 
-def _register(env: BuildEnvironment, content: Made) -> None:
-    standard = env.get_domain("std")
-    assert isinstance(standard, StandardDomain)
-    for target in content.targets:
-        label = target.label.lower()
-        standard.anonlabels[label] = (env.docname, target.id)
-        standard.labels[label] = (env.docname, target.id, target.title)
-
-
-def _role(kind: str) -> Any:
-    """Return a role that refers to the label made from its text; ``text <label>`` shows a different text."""
-
-    def role(
-        name: str, rawtext: str, text: str, lineno: int, inliner: Any, options: Any = None, content: Any = ()
-    ) -> tuple[list[nodes.Node], list[nodes.system_message]]:
-        title, _, target = text.partition(" <")
-        label = ROLES.get(kind, "{}").format(target.rstrip(">") if target else text).lower()
-        # The reference "program3 147+2" is shown as "147+2".
-        shown = title if target else text.rpartition(" ")[2] if kind in ("card", "name") else text
-        properties = {"refdomain": "std", "reftype": "ref", "refexplicit": True, "refwarn": True}
-        reference = addnodes.pending_xref(rawtext, reftarget=label, classes=[f"to-{kind}"], **properties)
-        reference += nodes.inline("", shown, classes=["std", "std-ref"])
-        reference["refdoc"] = inliner.document.settings.env.docname
-        return [reference], []
-
-    return role
-
-
 _LINK = re.compile(r"\[([^\]\[]*)\]\(([\w./-]+)(#[\w-]*)?\)")
 _WHOLE = re.compile(r"^:::\{whole\} (\S+)\n:::$", re.MULTILINE)
 
 
 def _project_files(app: Sphinx, docname: str, source: list[str]) -> None:
-    """Include whole files (``:::{whole} fortran_src/README.md``) and translate links to files of the project."""
+    """Translate the links to files of the project, and include the files that ``:::{whole} FILE`` names."""
     root = Path(app.srcdir).parent
 
     def whole(match: re.Match[str]) -> str:
@@ -136,7 +104,7 @@ def _project_files(app: Sphinx, docname: str, source: list[str]) -> None:
 
 
 def linked(app: Sphinx, text: str, docname: str, origin: str) -> str:
-    """Translate the links in a text from the folder ``origin`` into links from the page ``docname``.
+    """Return a text from the folder ``origin`` with its links translated to links from the page ``docname``.
 
     A link to a file that is no page becomes a link to the page that contains the file, or plain text.
     """
@@ -159,7 +127,7 @@ def linked(app: Sphinx, text: str, docname: str, origin: str) -> str:
 
 
 def _copied(file: str) -> bool:
-    """Return True if Sphinx copies a linked file to the site: a picture or a table within docs."""
+    """Return True if Sphinx copies a linked file to the site, which it does for a picture or a table within docs."""
     return file.startswith("docs/") and not file.endswith((".md", "/")) and "." in posixpath.basename(file)
 
 
@@ -169,7 +137,7 @@ def _stack_tables(app: Sphinx, name: str, template: str, context: dict[str, Any]
 
 
 def _speed_up_navigation(app: Sphinx, name: str, template: str, context: dict[str, Any], tree: object) -> None:
-    """Make the navigation from the titles of the pages.  Sphinx would copy all sections of all pages for every page."""
+    """Make the navigation from the titles of pages; Sphinx would copy all sections of all pages for every page."""
     env, toctree = app.env, context.get("toctree")
     titles = _titles(env)
 
@@ -186,7 +154,7 @@ def _speed_up_navigation(app: Sphinx, name: str, template: str, context: dict[st
 
 @cache
 def _titles(env: BuildEnvironment) -> dict[str, nodes.bullet_list]:
-    """Return the tables of contents of all pages without sections, as Sphinx makes them for ``titles_only``."""
+    """Return the table of contents of each page without sections, as Sphinx makes it for ``titles_only``."""
     tocs = {name: toc.deepcopy() for name, toc in env.tocs.items()}
     for entry in (entry for toc in tocs.values() for entry in toc.children):
         if isinstance(entry, nodes.Element) and len(entry) > 1:
@@ -198,7 +166,7 @@ def _titles(env: BuildEnvironment) -> dict[str, nodes.bullet_list]:
 
 
 def _write_places(app: Sphinx, exception: Exception | None) -> None:
-    """Write the entries of the Index for the script of the search page, which cannot fetch them from a file."""
+    """Write the entries of the Index as a script, because a site that is opened as files cannot fetch data."""
     if exception is not None:
         return
     entries = [[p.name, f"{p.page}.html{'#' + p.id if p.id else ''}", p.description] for p in places()]
@@ -207,10 +175,8 @@ def _write_places(app: Sphinx, exception: Exception | None) -> None:
 
 
 def setup(app: Sphinx) -> dict[str, Any]:
-    """Register the directive, the roles and the HTML writer; Sphinx calls this function."""
+    """Register the directive, the event handlers and the HTML writer. Sphinx calls this function."""
     app.add_directive("made", MadeDirective)
-    for kind in (*ROLES, "at"):
-        app.add_role(kind, _role(kind))
     app.connect("source-read", _project_files)
     app.connect("html-page-context", _stack_tables)
     app.connect("html-page-context", _speed_up_navigation, priority=400)  # before the theme makes the navigation

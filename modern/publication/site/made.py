@@ -1,4 +1,4 @@
-"""The classes for generated parts of pages, and the function that calls the generator of a given name."""
+"""The class of the parts from which generated pages are made, and the function that calls a generator by its name."""
 
 from collections.abc import Collection
 from dataclasses import dataclass
@@ -6,19 +6,6 @@ from importlib import import_module
 from pkgutil import iter_modules
 
 from modern.publication.site import pages
-
-
-@dataclass(frozen=True, slots=True)
-class Target:
-    """An HTML element of a page to which other pages refer.
-
-    ``label`` is the name of the element in the whole site, such as ``program3 147+2``.  ``title`` is the text of a
-    reference to the element.
-    """
-
-    id: str
-    label: str
-    title: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,14 +24,6 @@ class Part:
     text: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Made:
-    """The generated content of a page: its sections in order, and the elements to which other pages refer."""
-
-    parts: tuple[Part, ...]
-    targets: tuple[Target, ...] = ()
-
-
 def slug(prefix: str, title: str) -> str:
     """Return the id of a heading: the prefix, and the title with a hyphen for each character but letters and digits."""
     return f"{prefix}-" + "".join(c if c.isalnum() else "-" for c in title.lower())
@@ -55,11 +34,13 @@ def names() -> tuple[str, ...]:
     return tuple(sorted(module.name.replace("_", "-") for module in iter_modules(pages.__path__)))
 
 
-def make(name: str, argument: str) -> Made:
-    """Return the content that the module ``name`` generates for an argument.  Raise ValueError if either is unknown."""
+def make(name: str, argument: str) -> list[Part]:
+    """Return the content that the module ``name`` of ``pages`` generates for an argument. Raise ValueError if either is
+    unknown.
+    """
     if name not in names():
         raise ValueError(f"unknown page {name!r}; expected one of {', '.join(names())}")
-    content: Made = import_module(f"{pages.__name__}.{name.replace('-', '_')}").make(argument)
+    content: list[Part] = import_module(f"{pages.__name__}.{name.replace('-', '_')}").make(argument)
     return content
 
 

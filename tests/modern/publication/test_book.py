@@ -71,15 +71,15 @@ def test_markdown_is_translated_with_titles_and_aligned_numbers() -> None:
     assert "(left, right, left,)" in markup
 
 
-def test_links_and_roles_are_references_within_the_book() -> None:
+def test_links_are_references_within_the_book() -> None:
     known = (label("e.md", "f"), label("e.md"))
     assert f"#to(<{label('e.md', 'f')}>)" in typst("See [d](../e.md#f).", known=known)
     assert f"#to(<{label('e.md')}>)" in typst("See [d](../e.md#gone).", known=known)
-    known = (label("card", "program3", "147+2"),)
-    assert f"#to(<{known[0]}>)" in typst("At {card}`program3 147+2` it stands.", known=known)
-    markup = typst("At {card}`program3 9+9` it stands.", known=known)
-    assert "{card}" not in markup
-    assert '#raw("program3 9+9");' in markup
+
+
+def test_an_element_that_the_book_cannot_print_is_rejected() -> None:
+    with pytest.raises(ValueError, match=r"^how-to/x\.md: the book cannot print an element of the type hr$"):
+        typst("a\n\n***\n")
 
 
 WIDTHS = st.lists(st.tuples(st.integers(1, 12), st.integers(0, 80)), min_size=1, max_size=12)
@@ -177,6 +177,7 @@ def test_every_reference_of_the_book_resolves(whole: tuple[str, Path]) -> None:
     text, folder = whole
     labels = re.findall(r" <([\w.-]+)>", text)
     assert len(labels) == len(set(labels)), sorted({name for name in labels if labels.count(name) > 1})[:5]
+    assert not re.search(r'\{[a-z]+\}";#raw', text), "the book has no roles"
     references = set(re.findall(r"#(?:to|link)\(<([\w.-]+)>\)", text))
     assert len(references) > 50
     assert references <= set(labels)

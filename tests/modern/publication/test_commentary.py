@@ -101,7 +101,7 @@ def test_integers_stay_within_their_limits_in_every_run_that_ends() -> None:
 
 
 def test_the_listing_on_the_site_explains_every_block_and_every_variable() -> None:
-    html = "".join(part.html for part in make("facing", "program2").parts)
+    html = "".join(part.html for part in make("facing", "program2"))
     remarks = commentary("program2")
     for text in (*(block.title for block in remarks.blocks), *(gloss.text for gloss in remarks.variables)):
         assert escape(text) in html

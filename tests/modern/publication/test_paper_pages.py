@@ -25,7 +25,7 @@ NAMES = ("appel-will", "kovalevsky-schulz", "yau-srihari", "nakamae-nishita")
 def html(request: pytest.FixtureRequest) -> etree._Element:
     """Parse the HTML of a paper as XML, which fails if its elements are not nested correctly."""
     made = make("papers", request.param)
-    return etree.fromstring(f"<div>{''.join(part.html for part in made.parts)}</div>")
+    return etree.fromstring(f"<div>{''.join(part.html for part in made)}</div>")
 
 
 def test_pictures_have_descriptions_and_unique_ids(html: etree._Element) -> None:
@@ -73,11 +73,11 @@ def test_the_cells_of_the_ball_satisfy_euler() -> None:
     """Count the voxels by their distance from the centre, and apply Euler's formula to the closed surfaces."""
     complexes = steps.cells()
     counts = dict(complexes.counts)
-    radius = Fraction(complexes.diameter, 2)
-    reach = range(-complexes.diameter, complexes.diameter + 1)
+    radius = Fraction(steps.DIAMETER, 2)
+    reach = range(-steps.DIAMETER, steps.DIAMETER + 1)
     inside = {(x, y, z) for x in reach for y in reach for z in reach if x * x + y * y + z * z <= radius**2}
     corners, edges, squares, voxels = counts["the ball's voxels and their boundary"]
-    assert voxels == len(inside) == ball(complexes.diameter).count
+    assert voxels == len(inside) == ball(steps.DIAMETER).count
     pairs = sum(sum(abs(p - q) for p, q in zip(a, b, strict=True)) == 1 for a, b in combinations(inside, 2))
     assert squares == 6 * voxels - 2 * pairs
     assert (corners - edges + squares, 4 * squares) == (2, 2 * edges)

@@ -75,11 +75,12 @@ def test_the_profile_has_an_interval_in_every_row_except_zeros(capsys) -> None:
 
 @pytest.mark.parametrize(("page", "argument"), [("example", "6"), ("machine", "time"), ("facing", "program3")])
 def test_pages_have_intervals(page: str, argument: str) -> None:
-    tree = html.fromstring(f"<div>{''.join(part.html for part in make(page, argument).parts)}</div>")
+    tree = html.fromstring(f"<div>{''.join(part.html for part in make(page, argument))}</div>")
     texts = [
         " ".join(map(str, element.itertext())) for element in tree.iter("td", "text", "title", "figcaption", "span")
     ]
     texts += [str(title) for title in tree.xpath("//@title")]
+    texts = [text.replace("\N{NO-BREAK SPACE}", " ") for text in texts]
     times = [time for text in texts for time in TIME.findall(text)]
     assert [time for text in texts for time in bare(text)] == []
     assert len(times) > 3

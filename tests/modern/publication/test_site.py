@@ -138,7 +138,7 @@ def test_generated_content_does_not_depend_on_process_locale_or_time(site: Path)
             continue
         for name, argument in re.findall(r"^:::\{made\} (\S+) ?(\S*)$", file.read_text(encoding="utf-8"), re.MULTILINE):
             html = (site / page).read_text(encoding="utf-8")
-            parts = make(name, argument).parts
+            parts = make(name, argument)
             assert [part.id for part in parts if relative(stacked(part.html), len(page.parts) - 1) not in html] == [], (
                 page
             )

@@ -15,8 +15,8 @@ from modern.edition import programs
 from modern.edition.chapter6_cards import load_chapter
 from modern.publication.building import ROOT
 from modern.publication.examples import homes
-from modern.publication.facing import facing
-from modern.publication.site.made import Made, Part
+from modern.publication.facing import facing, page_of
+from modern.publication.site.made import Part
 from modern.publication.site.markup import element, link, text
 from modern.publication.site.pages.hub import summary
 from modern.publication.uses import uses
@@ -35,7 +35,7 @@ class Place:
     description: str
 
 
-def make(argument: str) -> Made:
+def make(argument: str) -> list[Part]:
     """Return the search field and the lists."""
     field = text("label", "Subject, name, statement number, row or error number: ", for_="find")
     field += element("input", type="search", id="find", autocomplete="off", spellcheck="false", disabled=True)
@@ -49,7 +49,7 @@ def make(argument: str) -> Made:
         Part("Names", "names", html=_list(_names())),
     )
     cards = (Part(f"Cards of {name}", f"cards-{name}", html=_list(_cards(name))) for name in programs.NAMES)
-    return Made((Part(html=form), *lists, *cards))
+    return [Part(html=form), *lists, *cards]
 
 
 def places() -> Iterator[Place]:
@@ -86,10 +86,8 @@ def _errors() -> Iterator[Place]:
 def _rows() -> Iterator[Place]:
     for name in programs.TEXTS:
         for row in programs.text(name).rows:
-            # The page of program1_examples shows only the rows that the listing of program 1 does not have.
-            page = name if row in facing(name).rows() else f"{name}_examples"
             description = f"{row.layer}, {row.kind}, {row.certainty}: {programs.cards_of(row)}"
-            yield Place(row.id, page, row.id, description)
+            yield Place(row.id, page_of(row), row.id, description)
     for row in load_chapter().text.rows:
         number = homes()[row.id][0] if row.id in homes() else None
         page = "examples" if number is None else f"example{number}"

@@ -5,19 +5,18 @@ from modern.publication.chart import chart
 from modern.publication.chart_svg import chart_svg
 from modern.publication.facing import facing
 from modern.publication.flow import Box, Flow, flow
-from modern.publication.site.made import Made, Part, Target, one_of
+from modern.publication.site.made import Part, one_of
 from modern.publication.site.markup import address, details, element, escape, inline, link, table, text
 
 _ORIGIN = "Drawn from the compiled program. The charts of the thesis are lost."
 
 
-def make(argument: str) -> Made:
+def make(argument: str) -> list[Part]:
     """Return the flow chart of a built-in program, one figure for each sheet, and a table of its transitions."""
     name = one_of(argument, programs.NAMES)
     control_flow = flow(programs.program(name))
     drawn = chart(control_flow)
     parts: list[Part] = []
-    targets: list[Target] = []
     for page, sheet in enumerate(drawn.pages, 1):
         picture = chart_svg(drawn, page, lambda box: address(name, _place(name, box)))
         svg = inline(picture, f"{name}-{page}", "flow", 125)
@@ -25,9 +24,8 @@ def make(argument: str) -> Made:
         caption = f"Sheet {page} of {len(drawn.pages)}: from {first.name} to {last.name}. {_ORIGIN}"
         html = element("figure", svg + text("figcaption", caption), cls="chart")
         parts.append(Part(f"Sheet {page}", f"sheet-{page}", html=html))
-        targets.append(Target(f"sheet-{page}", f"chart {name} {page}", f"flow chart of {name}, sheet {page}"))
     parts.append(Part("Table of transitions", "ways", html=_transitions(name, control_flow)))
-    return Made(tuple(parts), tuple(targets))
+    return parts
 
 
 def _place(name: str, box: Box) -> str:

@@ -1,4 +1,4 @@
-"""The emulator in the page, the comparison of the programs with exact arithmetic, and a set with a wrong hull."""
+"""The emulator's page, the comparison of the programs with exact arithmetic, and a point set with a wrong hull."""
 
 import re
 
@@ -15,7 +15,7 @@ from modern.port import convex_hull
 from modern.publication.console import console_page, parting_page
 from modern.publication.facing import facing
 from modern.publication.parting import parted
-from modern.publication.site.made import Made, Part, one_of
+from modern.publication.site.made import Part, one_of
 from modern.publication.site.markup import element, figure, link, preformatted, text
 from modern.thesis.cards import read_hull
 from modern.thesis.job import run_hull
@@ -23,15 +23,15 @@ from modern.thesis.job import run_hull
 FILE = "transcripts/counterexamples/silent.deck"
 
 
-def make(argument: str) -> Made:
-    """Return the controls of a page (``machine`` or ``parting``), or a set with a wrong hull (``wrong``)."""
+def make(argument: str) -> list[Part]:
+    """Return the controls of a page (``machine`` or ``parting``), or the point set with a wrong hull (``wrong``)."""
     if one_of(argument, ("machine", "parting", "wrong")) == "wrong":
         return _wrong()
-    return Made((Part(html=console_page() if argument == "machine" else parting_page()),))
+    return [Part(html=console_page() if argument == "machine" else parting_page())]
 
 
-def _wrong() -> Made:
-    """Compare the hull that the programs punch for a set with the true hull: picture, differences and calculation."""
+def _wrong() -> list[Part]:
+    """Compare the hull that the programs punch with the true hull: picture, differences and exact calculation."""
     source = read(FILE)
     points = parse_input(source, "silent.deck").points
     run = run_hull(deck_from_text("silent.deck", source), program)
@@ -45,13 +45,12 @@ def _wrong() -> Made:
     differences = "".join(text("li", line) for line in (*answer["says"], answer["part"]))
     statement = _statement_link(answer["part"])
     command = element("p", "To reproduce this result: " + text("code", f"hull1620 hull {FILE}"))
-    parts = (
+    return [
         Part("The picture", "picture", html=drawn),
         Part("Differences", "found", html=element("ul", differences) + statement + command),
         Part("The cards punched", "cards", html=cards),
         Part("The exact calculation", "exact", html=_worked(tuple(points))),
-    )
-    return Made(parts)
+    ]
 
 
 def _statement_link(divergence: str) -> str:
@@ -64,7 +63,7 @@ def _statement_link(divergence: str) -> str:
 
 
 def _worked(points: tuple[tuple[str, ...], ...]) -> str:
-    """Return, for each of four points, the exact value there of the plane through the other three points."""
+    """Return, for each of four points, the exact value at this point of the plane through the other three."""
     exact = [coordinates(point) for point in points]
     rows = []
     for out in range(4):

@@ -1,6 +1,7 @@
-"""The page of a printed example: verdicts on the printed results, hull, construction, time, and the printed cards.
+"""The page of a printed example: the verdicts on its results, its hull, the construction, the time, and the printed
+cards.
 
-The printed cards stand next to the OCR text and the cards of our run.
+Each printed card stands next to the OCR text and the card of our run.
 """
 
 import re
@@ -19,8 +20,8 @@ from modern.port import convex_hull
 from modern.publication.examples import TITLES, VERDICTS, Part, Shown, Source, example, homes, rest
 from modern.publication.measured import runs
 from modern.publication.site.entries import entry
-from modern.publication.site.made import Made, Target, one_of
 from modern.publication.site.made import Part as Section
+from modern.publication.site.made import one_of
 from modern.publication.site.markup import (
     definitions,
     details,
@@ -38,27 +39,19 @@ _EXPONENT = re.compile(r"E[+-]\d\d")
 STATES = {"examples": "program 1 in the state that ran the examples", "listing": "program 1 as listed"}
 
 
-def make(argument: str) -> Made:
-    """Return the example of that number; for ``rest``, the rows of chapter 6 that belong to no example."""
+def make(argument: str) -> list[Section]:
+    """Return the page of an example by its number, or the rows of chapter 6 that belong to no example (``rest``)."""
     if one_of(argument, ("rest", *map(str, EXAMPLES))) == "rest":
-        section = Section(
-            "Rows that concern no card", "rest", html="".join(entry(row, (), "examples") for row in rest())
-        )
-        return Made((section,), tuple(_target(row.id) for row in rest()))
+        rows = "".join(entry(row, (), "examples") for row in rest())
+        return [Section("Rows that concern no card", "rest", html=rows)]
     number = int(argument)
     parts = example(number)
-    sections = [Section("Verdict", "verdict", html=_verdicts(parts)), *_pictures(number)]
-    targets: list[Target] = []
-    for part in parts:
-        sections.append(Section(part.title, part.id, html=_part(part)))
-        targets.append(Target(part.id, f"example {number} {part.id}", f"example {number}, {part.title.lower()}"))
-        targets += [_target(row.id) for row in part.rows if homes()[row.id] == (number, part.id)]
-    sections.append(Section("Time on the 1620", "time", html=_time(number)))
-    return Made(tuple(sections), tuple(targets))
-
-
-def _target(row: str) -> Target:
-    return Target(row, row, row)
+    return [
+        Section("Verdict", "verdict", html=_verdicts(parts)),
+        *_pictures(number),
+        *(Section(part.title, part.id, html=_part(part)) for part in parts),
+        Section("Time on the 1620", "time", html=_time(number)),
+    ]
 
 
 def _verdicts(parts: tuple[Part, ...]) -> str:
@@ -123,7 +116,7 @@ def _part(part: Part) -> str:
 
 
 def _card(card: Shown, part: Part) -> str:
-    """Return the lines of a card: the witness, the corrected print and the run.  Equal lines are shown once."""
+    """Return the lines of a card: the witness, the corrected print and the run. Equal lines are shown only once."""
     is_same_run = card.run is not None and not card.differs
     label = "print = run" if is_same_run else "print"
     if len(card.sources) == 1 and card.sources[0].text == card.print and not card.continued:

@@ -1,10 +1,10 @@
 """A listing as facing text, with details for every card, and the tables of its names and FORMAT statements.
 
-All cards, rows and addresses are plain HTML and need neither JavaScript nor CSS.  The reader chooses the highlighted
-layers and the example whose figures appear in the margin with form controls, which CSS evaluates.
+All cards, rows and addresses are plain HTML and need neither JavaScript nor CSS. The reader chooses with form controls
+which layers are highlighted and which example has its executions and times in the margin; CSS evaluates the controls.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable
 
 from modern.edition import programs
 from modern.publication.chart import chart, sheets_of
@@ -14,7 +14,7 @@ from modern.publication.flow import flow
 from modern.publication.measured import DETECTED_BY, runs, weights
 from modern.publication.moments import LEGEND, drawn, moments
 from modern.publication.site.entries import column, entry, sign, witness_line
-from modern.publication.site.made import Made, Part, Target, one_of
+from modern.publication.site.made import Part, one_of
 from modern.publication.site.markup import (
     bar,
     code,
@@ -41,7 +41,7 @@ SIGNS = {
 }
 
 
-def make(argument: str) -> Made:
+def make(argument: str) -> list[Part]:
     """Return the facing text of a built-in program."""
     name = one_of(argument, programs.NAMES)
     listing = facing(name)
@@ -56,8 +56,7 @@ def make(argument: str) -> Made:
     for page, cards in listing.pages():
         items = "".join(remarks.get(card.number, "") + _card(listing, card, first_cards) for card in cards)
         parts.append(Part(f"Page {page}", f"page-{page}", html=head + element("ol", items, cls="cards")))
-    tables = _symbols(name)
-    return Made((*parts, *tables.parts), (*_targets(listing), *tables.targets))
+    return [*parts, _names(name), _formats(name)]
 
 
 def _remark(name: str, block: Block, sheet_of: dict[int, int]) -> str:
@@ -71,22 +70,6 @@ def _remark(name: str, block: Block, sheet_of: dict[int, int]) -> str:
     if moment := moments(name).get(block.cards.start):
         inner = element("div", inner) + element("figure", drawn(moment) + text("figcaption", moment.caption()))
     return element("li", inner, cls="remark", id=f"about-{place}")
-
-
-def _targets(listing: Facing) -> Iterator[Target]:
-    name = listing.program
-    for card in listing.cards:
-        for place in (card.place, *card.also):
-            yield Target(place, f"{name} {place}", f"{name} {place}")
-    for page, _ in listing.pages():
-        yield Target(f"page-{page}", f"{name} page {page}", f"{name}, p. {page}")
-    # The page of program 1 as listed is the address of the rows that the state of the examples shares with it.
-    own = {row.id for row in listing.rows()}
-    if name not in programs.TEXTS:
-        own -= {row.id for row in facing(listing.text.id).rows()}
-    for row in listing.rows():
-        if row.id in own:
-            yield Target(row.id, row.id, row.id)
 
 
 def _controls(listing: Facing) -> str:
@@ -244,33 +227,31 @@ def _weight(detected: tuple[int, ...], formula: str) -> str:
     return escape(sentence) + bar((f"w-{check}", count) for check, count in zip(DETECTED_BY, detected, strict=True))
 
 
-def _symbols(program: str) -> Made:
-    """Return the table of names and the table of FORMATs of a built-in program, with their addresses."""
-    known, cards = uses(program), {card.number: card for card in facing(program).cards}
-
-    def places(numbers: tuple[int, ...]) -> str:
-        return ", ".join(link(program, cards[n].place, cards[n].place) for n in numbers)
-
+def _names(program: str) -> Part:
     gloss_of = {gloss.name: gloss for gloss in commentary(program).variables}
-    rows, targets = [], []
-    for name in known.names:
+    rows = []
+    for name in uses(program).names:
         code = text("code", name.name, id=f"name-{name.name}")
         meaning = _meaning(gloss_of[name.name]) if name.name in gloss_of else ""
-        rows.append((code, meaning, _type_of(name), *map(places, (name.declared, name.set, name.used))))
-        targets.append(Target(f"name-{name.name}", f"name {program} {name.name}", name.name))
-    names = table(("name", "meaning", "type", "declared", "set", "used"), rows, "Names")
-    formats = []
-    for card in cards.values():
+        cards = (_places(program, numbers) for numbers in (name.declared, name.set, name.used))
+        rows.append((code, meaning, _type_of(name), *cards))
+    return Part("Names", "names", html=table(("name", "meaning", "type", "declared", "set", "used"), rows, "Names"))
+
+
+def _formats(program: str) -> Part:
+    rows = []
+    for card in facing(program).cards:
         if card.kind == "format":
-            users = [jump for jump in known.to(card.number) if jump.kind == "format"]
-            used = ", ".join(f"{places((jump.card,))} {escape(jump.taken)}" for jump in users)
+            users = [jump for jump in uses(program).to(card.number) if jump.kind == "format"]
+            used = ", ".join(f"{_places(program, (jump.card,))} {escape(jump.taken)}" for jump in users)
             specification = card.text.split("FORMAT", 1)[1].strip()
-            formats.append((link(program, card.place, str(card.label)), text("code", specification), used or "nothing"))
-    parts = (
-        Part("Names", "names", html=names),
-        Part("FORMATs", "formats", html=table(("FORMAT", "specification", "used by"), formats, "FORMATs")),
-    )
-    return Made(parts, tuple(targets))
+            rows.append((link(program, card.place, str(card.label)), text("code", specification), used or "nothing"))
+    return Part("FORMATs", "formats", html=table(("FORMAT", "specification", "used by"), rows, "FORMATs"))
+
+
+def _places(program: str, numbers: Iterable[int]) -> str:
+    places = (facing(program).cards[number - 1].place for number in numbers)
+    return ", ".join(link(program, place, place) for place in places)
 
 
 def _meaning(gloss: Gloss) -> str:

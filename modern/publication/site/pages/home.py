@@ -11,7 +11,7 @@ from modern.publication import essay
 from modern.publication.building import citation
 from modern.publication.facing import Card, facing
 from modern.publication.site.downloads import FOLDER, downloads
-from modern.publication.site.made import Made, Part, one_of
+from modern.publication.site.made import Part, one_of
 from modern.publication.site.markup import HERE, bar, element, escape, link, marked, preformatted, table, text
 from modern.publication.site.pages.statements import SIGNS
 from modern.publication.tei_register import document_of
@@ -28,10 +28,10 @@ _MEANINGS = (
 )
 
 
-def make(argument: str) -> Made:
+def make(argument: str) -> list[Part]:
     """Return a part of a page: ``pictures``, ``verdicts``, ``programs``, ``downloads`` or ``cite``."""
     parts = {"pictures": _pictures, "verdicts": _verdicts, "programs": _programs, "downloads": _files, "cite": _cite}
-    return Made((Part(html=parts[one_of(argument, parts)]()),))
+    return [Part(html=parts[one_of(argument, parts)]())]
 
 
 def _pictures() -> str:

@@ -1,9 +1,9 @@
-"""Make the list of the pages below a page, with a sentence about the contents of each."""
+"""The list of the pages below a page, with a sentence about the contents of each."""
 
 import re
 
 from modern.publication.building import ROOT
-from modern.publication.site.made import Made, Part
+from modern.publication.site.made import Part
 
 _TREE = re.compile(r"^(?::::|```)\{toctree\}\n(.*?)^(?::::|```)$", re.DOTALL | re.MULTILINE)
 _WHOLE = re.compile(r"^:::\{(?:whole\}|made\} texts) (\S+\.md)$", re.MULTILINE)
@@ -11,8 +11,8 @@ _SENTENCE = re.compile(r"(?<=[^A-Z]\.)\s")
 _LINK = re.compile(r"\[([^\]]*)\]\([^)]*\)|\{\w+\}`([^`<]*)[^`]*`")
 
 
-def make(argument: str) -> Made:
-    """Return the list for a page of ``docs``, from its own table of contents.  Raise ValueError if it has none."""
+def make(argument: str) -> list[Part]:
+    """Return the list of the pages that the toctree of a page names. Raise ValueError if the page has no toctree."""
     docs = ROOT / "docs"
     match = _TREE.search((docs / f"{argument}.md").read_text(encoding="utf-8"))
     if match is None:
@@ -26,11 +26,11 @@ def make(argument: str) -> Made:
                 title, sentence = summary(file.read_text(encoding="utf-8"))
                 page = file.relative_to(docs.resolve()).with_suffix("").as_posix()
                 items.append(f"- {{doc}}`{title} </{page}>`: {sentence}\n")
-    return Made((Part(text="".join(items)),))
+    return [Part(text="".join(items))]
 
 
 def summary(page: str) -> tuple[str, str]:
-    """Return the title of a page and its first sentence, without "This page" and without links."""
+    """Return the title of a page and its first sentence, without links and without the words "This page"."""
     if included := _WHOLE.search(page):
         page = (ROOT / included[1]).read_text(encoding="utf-8")
     _, _, body = page.partition("\n# ") if not page.startswith("# ") else ("", "", page[2:])

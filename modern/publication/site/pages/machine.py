@@ -1,4 +1,4 @@
-"""Storage maps to scale and the composition of running time, each with a table."""
+"""The storage maps and the composition of running time, drawn to scale, each with a table."""
 
 from collections.abc import Iterator
 
@@ -10,7 +10,7 @@ from modern.edition.programs import program
 from modern.publication import core
 from modern.publication.core import ARRAY, CORE, CoreMap, Region, core_map
 from modern.publication.measured import Run, runs
-from modern.publication.site.made import Made, Part, one_of
+from modern.publication.site.made import Part, one_of
 from modern.publication.site.markup import details, element, escape, figure, link, table, text
 
 PER_PIXEL = 50  # positions of core storage for each pixel of the map
@@ -18,10 +18,10 @@ _LEFT, _WIDE = 42, 104
 _TOP, _FOOT = 8, 8
 _FONT = f'font-family="{svg.FONT}" font-size="9.5" fill="#000"'
 _GREYS = dict(zip(core.KINDS, ("#b4b4b4", "#dcdcdc", "#fff", "#f0f0f0", "#c8c8c8", "#555"), strict=True))
-# The smallest heights in pixels for a region with its name, and with its name and size on two lines.
+# The least height in pixels of a region that shows its name, and of one that shows name and size on two lines.
 _LINE, _TWO_LINES = 9, 26
 
-# The parts of a bar, each with the causes in the time table that it adds up.
+# The parts of a bar. Each part adds up the times of the named causes in the time table.
 PARTS = {
     "floating point": (ARITHMETIC,),
     "subscripts": (SUBSCRIPTS,),
@@ -44,19 +44,19 @@ _STEP, _BAR = 37, 15
 _TEXT = f'font-family="{svg.FONT}" font-size="11" fill="#000"'
 
 
-def make(argument: str) -> Made:
+def make(argument: str) -> list[Part]:
     """Return ``storage``, the storage maps with tables, or ``time``, the times of the printed examples with a table."""
-    return Made(_storage() if one_of(argument, ("storage", "time")) == "storage" else _time())
+    return _storage() if one_of(argument, ("storage", "time")) == "storage" else _time()
 
 
-def _storage() -> tuple[Part, ...]:
+def _storage() -> list[Part]:
     maps = [core_map(name) for name in PROGRAMS]
     pictures = ""
     for storage in maps:
         caption = link(storage.program, "", _title(storage))
         pictures += figure(map_svg(storage), f"core-{storage.program}", caption, description=_description(storage))
     sections = (element("div", pictures, cls="maps"), _sizes(maps), "".join(map(_addresses, maps)))
-    return tuple(Part(html=html) for html in sections)
+    return [Part(html=html) for html in sections]
 
 
 def _title(storage: CoreMap) -> str:
@@ -78,7 +78,11 @@ def _count(region: Region) -> str:
 
 
 def map_svg(storage: CoreMap) -> str:
-    """Draw a storage map as SVG from address 0 up. ``data-low`` and ``data-positions`` are facts of each rectangle."""
+    """Draw a storage map as SVG, with address 0 at the bottom.
+
+    The attributes ``data-low`` and ``data-positions`` of a rectangle are its lowest address and its number of
+    positions.
+    """
     height = CORE // PER_PIXEL
 
     def y(address: int) -> int:
@@ -121,7 +125,9 @@ def map_svg(storage: CoreMap) -> str:
 
 
 def _labelled_addresses(storage: CoreMap) -> Iterator[int]:
-    """Return the addresses written next to the map: the start of each region before the data, and the end of core."""
+    """Yield the addresses next to the map: the start of each region below the data and of the data, and the end of
+    core.
+    """
     previous = ""
     for region in storage.regions:
         if region.kind in (core.SYSTEM, core.PROGRAM, core.FREE) or previous == core.FREE:
@@ -157,7 +163,9 @@ def _addresses(storage: CoreMap) -> str:
 
 
 def example_runs() -> list[Run]:
-    """Return the runs of the printed examples by example and program, with program 1 in the state of the examples."""
+    """Return the runs of the printed examples, sorted by example and program. Program 1 is in the state of the
+    examples.
+    """
     names = [name for name in PROGRAMS if name != "program1"]
     return sorted((run for name in names for run in runs(name)), key=lambda run: (run.example, run.program))
 
@@ -170,7 +178,7 @@ def times_of(run: Run) -> tuple[Time, ...]:
 _CAPTION = "Time on a 1620 Model 1; in parentheses: the systematic error of the processor's times"
 
 
-def _time() -> tuple[Part, ...]:
+def _time() -> list[Part]:
     all_runs = example_runs()
     longest = max(all_runs, key=lambda run: run.total.seconds)
     caption = (
@@ -186,7 +194,7 @@ def _time() -> tuple[Part, ...]:
         rows.append((name, *map(str, times_of(run)), str(run.total)))
     drawn = figure(time_svg(all_runs), "time", caption, "drawing bars", description)
     figures = table(("run", *PARTS, "total"), rows, "Composition of running time", _CAPTION)
-    return (Part(html=drawn + figures),)
+    return [Part(html=drawn + figures)]
 
 
 def _called(run: Run) -> str:
@@ -194,7 +202,7 @@ def _called(run: Run) -> str:
 
 
 def time_svg(all_runs: list[Run]) -> str:
-    """Draw the times of runs as stacked bars of the same scale, in SVG.  ``data-seconds`` is the time of a part."""
+    """Draw the times of runs as stacked bars of the same scale. ``data-seconds`` is the time of a part of a bar."""
     longest = max(run.total.seconds for run in all_runs)
     key = 4 * 17 + 14
 

@@ -20,7 +20,7 @@ from modern.papers.appel_will.results import Solid, found_solid, printed_solid
 from modern.papers.appel_will.star import vorticity
 from modern.papers.kovalevsky_schulz.cells import all_rows
 from modern.publication import steps
-from modern.publication.site.made import Made, Part, one_of
+from modern.publication.site.made import Part, one_of
 from modern.publication.site.markup import details, element, escape, figure, preformatted, table, text
 from modern.publication.steps import EDGE_OF_CONTOUR, EYE, HIDDEN, REMOVED, SEEN, Level, Plate, Stroke
 
@@ -34,7 +34,7 @@ _STYLES = {
     REMOVED: 'stroke="#777" stroke-width="0.8" stroke-dasharray="3 3"',
 }
 _FONT = f'font-family="{svg.FONT}" font-size="13" fill="#000" text-anchor="middle"'
-# The style of an edge that no loop, one loop or two loops have used.
+# The styles of an edge that no loop, one loop and two loops have used.
 _USES = (
     'stroke="#777" stroke-width="0.9" stroke-dasharray="3 3"',
     'stroke="#000" stroke-width="1.4"',
@@ -42,7 +42,7 @@ _USES = (
 )
 
 
-def make(argument: str) -> Made:
+def make(argument: str) -> list[Part]:
     """Return the pictures of a paper: ``appel-will``, ``kovalevsky-schulz``, ``yau-srihari`` or ``nakamae-nishita``."""
     makers = {
         "appel-will": _appel_will,
@@ -50,7 +50,7 @@ def make(argument: str) -> Made:
         "yau-srihari": _octree,
         "nakamae-nishita": _hidden_lines,
     }
-    return Made(tuple(Part(html=html) for html in makers[one_of(argument, makers)]()))
+    return [Part(html=html) for html in makers[one_of(argument, makers)]()]
 
 
 def _strip(figures: Iterable[str]) -> str:
@@ -90,9 +90,7 @@ def _solid(solid: Solid, number: str) -> str:
 
 
 def within(hull: Assembled) -> tuple[int, int]:
-    """Return the first pair of vertices for which the star polygon test finds that their line is not an edge of the
-    hull.
-    """
+    """Return the first pair of vertices whose line is not an edge of the hull, by the test of the star polygon."""
     for pair in combinations(hull.vertices, 2):
         images = star(hull, pair).images
         if all(vorticity(a, b) > 0 for a, b in zip(images, (*images[1:], images[0]), strict=True)):
@@ -114,9 +112,10 @@ def _loop(hull: Assembled, number: int, loop: Loop) -> str:
 
 
 def loop_svg(hull: Assembled, number: int) -> str:
-    """Draw the topological map after a loop is closed: the loop's surface in grey, and at each edge its uses so far.
+    """Draw the topological map after a loop is closed.
 
-    The largest surface is the outside of the map, so its grey area surrounds the map.
+    The surface of the loop is grey, and the number at each edge counts its uses so far. The largest surface is the
+    outside of the map, so its grey area surrounds the map.
     """
     loop, surfaces = hull.table.loops[number - 1], hull.surfaces
     outer = max(range(len(surfaces)), key=lambda k: (len(surfaces[k]), -k))
@@ -217,7 +216,7 @@ def _cells() -> Iterator[str]:
     hull = complexes.hull
     hidden_vertices = sum(hidden for _, hidden in complexes.plates[1].points)
     captions = (
-        f"The {voxels} voxels of a ball of diameter {complexes.diameter}: 3-cells.",
+        f"The {voxels} voxels of a ball of diameter {steps.DIAMETER}: 3-cells.",
         f"The hull's {len(hull.vertices)} vertices, 0-cells. The {hidden_vertices} hidden ones are hollow.",
         f"Its {len(hull.edges)} edges, 1-cells. Hidden edges are dashed.",
         f"Its {len(hull.faces)} faces, 2-cells. {len(complexes.plates[3].panes)} are visible.",
@@ -253,7 +252,7 @@ def _square(level: Level, side: int) -> str:
 
 
 def quadrants_svg(level: Level, side: int) -> str:
-    """Draw the quadrants of a level as squares; a lighter grey means a greater height."""
+    """Draw the quadrants of a level as squares. A square with a greater height has a lighter grey."""
     room = WIDTH - 2 * _MARGIN
     unit = 100 * room // side
 

@@ -1,12 +1,12 @@
-"""The statements of a document: for each statement its page, its words, the verdict and the evidence.
+"""The statements of a document: for each statement its page, the words of the document, the verdict and the evidence.
 
-The page contains all statements.  The script ``data.js`` hides those that the reader's choice excludes.
+The page contains all statements. The script ``data.js`` hides those that the reader deselects.
 """
 
 from modern.claims.full import FullSearch, recorded_for
 from modern.claims.register import COLUMNS, DOCUMENTS, UNTESTABLE, USED, Judged, Statement, column, counts, judged
 from modern.claims.sampled_sets import counterexample
-from modern.publication.site.made import Made, Part, Target, one_of, slug
+from modern.publication.site.made import Part, one_of, slug
 from modern.publication.site.markup import definitions, details, element, escape, preformatted, run_link, text
 from modern.study.report import raised
 
@@ -15,21 +15,18 @@ SIGNS = dict(zip(COLUMNS, ("\u2713", "(\u2713)", "\u2717", "\u2248", "=", "\u201
 _CLASSES = dict(zip(COLUMNS, ("holds", "condition", "fails", "slip", "used", "untested", "repetition"), strict=True))
 
 
-def make(argument: str) -> Made:
-    """Return the statements of a document, page by page."""
+def make(argument: str) -> list[Part]:
+    """Return the statements of a document, with a section for each page."""
     name = one_of(argument, DOCUMENTS)
-    judgements = judged(name)
     parts = [Part(html=_controls(name))]
     rows_of: dict[str, list[Judged]] = {}
-    for judgement in judgements:
+    for judgement in judged(name):
         rows_of.setdefault(judgement.statement.page, []).append(judgement)
     for page, rows_of_page in rows_of.items():
         title = f"Page {page}" if page[:1].isdigit() else page.capitalize()
         html = element("ol", "".join(map(_statement, rows_of_page)), cls="statements")
         parts.append(Part(title, slug("page", page), html=html))
-    ids = [judgement.statement.id for judgement in judgements]
-    targets = [Target(row_id, row_id, f"statement {row_id}") for row_id in ids]
-    return Made(tuple(parts), tuple(targets))
+    return parts
 
 
 def _controls(document: str) -> str:

@@ -8,17 +8,17 @@ import json
 from modern.drawing.draw import draw_svg
 from modern.drawing.stages import row, strip
 from modern.publication import essay
-from modern.publication.site.made import Made, Part, one_of
+from modern.publication.site.made import Part, one_of
 from modern.publication.site.markup import element, figure, inline, link, preformatted, table, text
 
 EYE = (1, 1, 2)  # the hull of the example is broad from this direction
 XS = range(5, 1000, 5)  # the positions of the slider
 
 
-def make(argument: str) -> Made:
+def make(argument: str) -> list[Part]:
     """Return a figure of the essay: ``hulls``, ``card``, ``growth``, ``truncation`` or ``cube``."""
     makers = {"hulls": _hulls, "card": _card, "growth": _growth, "truncation": _truncation, "cube": _cube}
-    return Made((Part(html=makers[one_of(argument, makers)]()),))
+    return [Part(html=makers[one_of(argument, makers)]())]
 
 
 def _hulls() -> str:

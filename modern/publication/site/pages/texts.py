@@ -3,9 +3,11 @@
 import re
 
 from emulator.errors import explanations
+from modern.edition import programs
 from modern.edition.sources import Document, read, sources
+from modern.publication.facing import page_of
 from modern.publication.numbered import Item, numbered
-from modern.publication.site.made import Made, Part, Target, one_of, slug
+from modern.publication.site.made import Part, one_of, slug
 from modern.publication.site.markup import definitions, details, element, escape, preformatted, run_link, table, text
 
 _FILE = re.compile(r"\[([^\]]+)\]\((?!https?:)[^)]+\)")
@@ -13,18 +15,15 @@ _FILE = re.compile(r"\[([^\]]+)\]\((?!https?:)[^)]+\)")
 FILES = {"fortran_src/KNOWN-FAULTS.md": "fault", "fortran_src/OPEN-QUESTIONS.md": "question"}
 
 
-def make(argument: str) -> Made:
+def make(argument: str) -> list[Part]:
     """Return a section for each item of a file, for each document (``sources``) or for each error (``errors``)."""
     if one_of(argument, ("sources", "errors", *FILES)) == "errors":
         return _errors()
     if argument == "sources":
-        documents = sources().documents
-        parts = [Part(document.title, document.id, html=_document(document)) for document in documents]
-        return Made(tuple(parts), tuple(Target(document.id, document.id, document.title) for document in documents))
+        return [Part(document.title, document.id, html=_document(document)) for document in sources().documents]
     kind = FILES[argument]
     opening, items, closing = numbered(argument)
     parts, section = [Part(text=opening)], ""
-    targets: list[Target] = []
     for item in items:
         if item.section != section:
             section = item.section
@@ -32,31 +31,31 @@ def make(argument: str) -> Made:
         level = 2 if section else 1
         parts.append(Part(f"{item.number}. {item.title}", f"{kind}-{item.number}", level, text=_linked(item)))
         parts += [Part(html=_deck(deck)) for deck in item.decks]
-        targets.append(Target(f"{kind}-{item.number}", f"{kind} {item.number}", f"{kind} {item.number}"))
     if closing[0]:
         parts.append(Part(closing[0], "after", text=_FILE.sub(r"\1", closing[1])))
-    return Made(tuple(parts), tuple(targets))
+    return parts
 
 
-def _errors() -> Made:
+def _errors() -> list[Part]:
     """Return a section for each error number of the compiler and error code of the machine, with an example."""
-    parts, targets = [], []
+    parts = []
     for number, explanation in explanations().items():
         lines = "\n".join(explanation.example)
         example = preformatted(lines, f"example of error {number}") if lines else ""
         facts = (("remedy", escape(explanation.remedy)), ("source", escape(explanation.source)))
         html = text("p", explanation.meaning) + example + definitions(facts, cls="facts")
         parts.append(Part(f"Error {number}: {explanation.title}", f"error-{number}", html=html))
-        targets.append(Target(f"error-{number}", f"error {number}", f"error {number}"))
-    return Made(tuple(parts), tuple(targets))
+    return parts
 
 
 def _linked(item: Item) -> str:
-    """Return the text of an item with references to rows of the listings and without links to files."""
+    """Return the text of an item with links to rows of the listings and without links to files."""
     content = item.text
-    for name in item.rows:
-        if name.startswith("P"):
-            content = content.replace(name, f"{{row}}`{name}`", 1)
+    for row in item.rows:
+        if row.startswith("P"):
+            address = f"{page_of(programs.text(f'program{row[1]}').row(row))}.html#{row}"
+            html = f'<a class="reference internal" href="{address}"><span class="std std-ref">{row}</span></a>'
+            content = content.replace(row, html, 1)
     return _FILE.sub(r"\1", content)
 
 
