@@ -1,9 +1,9 @@
 """Build a text by applying the rows of its apparatus to its witness.
 
-A *witness* is the OCR text of a printed page, kept verbatim.  Lines beginning with ``## `` are page marks that the
-editor added.  They are not part of the witness.  A *row* is one emendation: its place, the reading of the witness, the
-accepted reading (the lemma), the reason and the evidence.  :func:`build` applies the rows of chosen layers.  Each line
-of the result records which witness line or which row it comes from.
+A *witness* is the OCR text of a printed page, kept verbatim.  Lines that begin with ``## `` are page marks; the editor
+added them, and they are not part of the witness.  A *row* is one emendation: its place, the reading of the witness, the
+accepted reading (the lemma), the reason and the evidence.  :func:`build` applies the rows of the chosen layers.  Each
+line of the result names the witness line or the row that it comes from.
 
 ``fortran_src/README.md`` describes the file format.  This module knows nothing about FORTRAN or hulls.
 """
@@ -22,13 +22,12 @@ from emulator.errors import EmulatorError
 
 PAGE_MARK = "## page "
 LAST_COLUMN = 72
+# The layers whose text the project supplied.
 _OURS = ("lacuna", "examples", "epsilon", "translation", "corrected")
-# A snapshot of the page is stored before every sixteenth row.
-_SNAPSHOT_EVERY = 16
 # The kinds of rows that insert text that the witness lacks.
 _ADDS = ("lost", "lost-sign", "slip")
 _CAUSES = ("ocr", "typist", "author", "editor", "undecidable")
-# The default cause of the rows of a layer.  For layers not listed here it is the editor.
+# The default cause of the rows of a layer.  For all other layers it is ``editor``.
 _CAUSE = {"ocr": "ocr", "typist": "typist", "author": "author", "print": "undecidable", "lacuna": "undecidable"}
 _FIELDS = ("id", "layer", "kind", "reason", "evidence", "change")
 _OPTIONAL = ("ground", "cause", "editor", "date", "rdg")
@@ -36,20 +35,20 @@ Certainty = Literal["certain", "probable", "conjecture"]
 
 
 class ApparatusError(EmulatorError, ValueError):
-    """Raised for a row of the apparatus that cannot be read or does not fit the text; the message names the row."""
+    """Raised if a row of the apparatus is invalid or does not fit the text.  The message names the row."""
 
 
 @dataclass(frozen=True, slots=True)
 class Change:
     """One change of a row.
 
-    ``line`` is the id of a line: a witness line number ("17") or an inserted card ("P1-031.2").  ``lemma`` replaces the
-    fragment ``witness``, which must occur exactly once in the line.  A lemma that contains line ends produces several
-    lines.  A line that becomes empty is removed from the text.  With ``after``, the lines of the lemma are inserted
-    after the line instead.  With ``through``, every line from ``line`` to ``through`` is removed.  With ``form``, the
-    lines from ``line`` to ``through`` are kept but arranged as on the coding form.  The number is placed in columns 1
-    to 5.  The statement begins in column 7, or in column 1 if it would otherwise extend beyond column 72.  With
-    ``dense``, the blanks of the line are removed.
+    ``line`` is the id of a line: the number of a witness line ("17") or the id of an inserted card ("P1-031.2").
+    ``lemma`` replaces the fragment ``witness``, which must occur exactly once in the line.  A lemma that contains line
+    ends produces several lines.  A line that becomes empty is removed from the text.
+
+    With ``after``, the lines of the lemma are inserted after the line instead.  With ``through``, all lines from
+    ``line`` to ``through`` are removed.  With ``form``, these lines are kept but arranged as on the coding form
+    (:func:`on_form`).  With ``dense``, the blanks of the line are removed.
     """
 
     line: str
@@ -63,17 +62,19 @@ class Change:
 
 @dataclass(frozen=True, slots=True)
 class Rejected:
+    """A reading that the editor considered and rejected, with the reason."""
+
     reading: str
     reason: str
 
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One emendation with its documentation.
+    """One emendation with its reasons.
 
-    ``cause`` names the origin of the error: ``ocr``, ``typist``, ``author``, ``editor`` or ``undecidable``.
-    ``page`` is derived from the witness lines of the row, and ``certainty`` from layer, kind and ground.  ``confirmed``
-    is true if a reader of the page has reported the reading.
+    ``cause`` is the origin of the error: ``ocr``, ``typist``, ``author``, ``editor`` or ``undecidable``.  ``page`` is
+    derived from the witness lines that the row changes.  ``confirmed`` is True if someone who read the printed page has
+    reported the accepted reading.
     """
 
     id: str
@@ -93,12 +94,11 @@ class Row:
 
     @property
     def certainty(self) -> Certainty:
-        """The certainty of the reading, by the first rule that applies (fortran_src/README.md).
+        """The certainty of the accepted reading, by the first of these rules that applies (fortran_src/README.md).
 
-        A reading that the page confirms is certain.
-        Cards added by the project and text supplied for a gap are conjectures.  A reading is probable if the error may
-        be the author's or the typist's, if its cause is undecidable, or if only a similar passage or card supports
-        it.  All other readings are certain.
+        A reading that the page confirms is certain.  Cards added by the project and text supplied for a gap are
+        conjectures.  A reading is probable if the error may be the author's or the typist's, if its cause is
+        undecidable, or if only a similar passage or card supports the reading.  All other readings are certain.
         """
         if self.confirmed:
             return "certain"
@@ -115,12 +115,12 @@ class Row:
 
     @property
     def witness(self) -> str:
-        """The reading of the witness as shown in a table: the fragments, joined with vertical bars."""
+        """The reading of the witness as one line: the fragments of all changes, joined with vertical bars."""
         return " | ".join(_shown(change.witness) or _scope(change) for change in self.changes)
 
     @property
     def lemma(self) -> str:
-        """The accepted reading as shown in a table."""
+        """The accepted reading as one line: the lemmas of all changes, joined with vertical bars."""
         return " | ".join(_shown(change.lemma) or _effect(change) for change in self.changes)
 
 
@@ -136,17 +136,14 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class Text:
+    """A witness with its rows, its layers in the order in which they are applied, and the layers applied by default."""
+
     id: str
     title: str
     witness: tuple[Line, ...]
     rows: tuple[Row, ...]
     layers: tuple[str, ...]
     default: tuple[str, ...]
-    # A cache, by layers, of their rows in order and of snapshots of the page before some rows.  Builds share the
-    # snapshots.
-    pages: "dict[tuple[str, ...], tuple[tuple[Row, ...], dict[int, _Page]]]" = field(
-        default_factory=dict, init=False, compare=False, repr=False
-    )
 
     def row(self, row_id: str) -> Row:
         for row in self.rows:
@@ -156,9 +153,9 @@ class Text:
 
 
 def read_witness(source: str, furniture: Collection[str] = ()) -> tuple[Line, ...]:
-    """Return the lines of a witness, numbered from 1 without the page marks.
+    """Return the lines of a witness.  Their ids are line numbers from 1; page marks are not counted.
 
-    Blank lines and ``furniture`` (lines that belong to no text, such as code fences) are counted but not returned.
+    Blank lines and the lines in ``furniture``, such as code fences, are counted but not returned.
     """
     lines: list[Line] = []
     page, number = "", 0
@@ -192,39 +189,28 @@ def load(folder: Traversable, name: str) -> Text:
 
 
 def confirmed(text: Text, ids: Collection[str]) -> Text:
-    """Return a text whose rows with these ids are confirmed by the page."""
+    """Return the text with the rows of these ids marked as confirmed by the page."""
     return replace(text, rows=tuple(replace(row, confirmed=row.id in ids) for row in text.rows)) if ids else text
 
 
 def build(
     text: Text, layers: Iterable[str] | None = None, without: Collection[str] = (), instead: Row | None = None
 ) -> tuple[Line, ...]:
-    """Return the lines of the witness after the rows of ``layers`` (by default, the text's default layers).
+    """Return the lines of the witness after applying the rows of ``layers`` (None: the text's default layers).
 
-    The rows whose ids are in ``without`` are not applied.  ``instead`` is a row that replaces the row with the same id.
-    Layers are applied in the order of ``text.layers``.  Raises ApparatusError for an unknown layer, and RowMisfit if
-    the witness fragment of a row does not occur exactly once in its line.
+    The rows whose ids are in ``without`` are not applied.  ``instead`` replaces the row with the same id.  Layers are
+    applied in the order of ``text.layers``.  Raise ApparatusError for an unknown layer, and RowMisfit if the witness
+    fragment of a row does not occur exactly once in its line.
     """
     chosen = set(text.default if layers is None else layers)
     unknown = chosen.difference(text.layers)
     if unknown:
         raise ApparatusError(f"{text.id} has no layer {', '.join(sorted(unknown))}; it has {', '.join(text.layers)}")
     order = tuple(layer for layer in text.layers if layer in chosen)
-    default_rows = tuple(row for layer in order for row in text.rows if row.layer == layer)
-    rows, snapshots = text.pages.setdefault(order, (default_rows, {}))
-    changed_rows = {*without, instead.id} if instead else without
-    first_changed = next((n for n, row in enumerate(rows) if row.id in changed_rows), len(rows))
-    # The checks build a text hundreds of times, each time without one row.  All builds agree up to that row, so a build
-    # starts from the last snapshot before it.
-    start = max((number for number in snapshots if number <= first_changed), default=0)
-    page = snapshots[start].copy() if snapshots else _Page({line.id: line for line in text.witness})
-    for number, row in enumerate(rows[start:], start):
-        if number <= first_changed and number % _SNAPSHOT_EVERY == 0 and number not in snapshots:
-            snapshots[number] = page.copy()
-        if instead and row.id == instead.id:
-            row = instead
+    page = _Page(text.witness)
+    for row in (row for layer in order for row in text.rows if row.layer == layer):
         if row.id not in without:
-            page.apply(row)
+            page.apply(instead if instead and row.id == instead.id else row)
     return tuple(line for line in page.lines() if line.text.strip())
 
 
@@ -252,11 +238,9 @@ class RowMisfit(ApparatusError):
 
 
 class _Page:
-    def __init__(self, at: dict[str, Line], order: Iterable[str] = ()) -> None:
-        self._at, self._order = at, list(order or at)
-
-    def copy(self) -> "_Page":
-        return _Page(dict(self._at), self._order)
+    def __init__(self, lines: Iterable[Line]) -> None:
+        self._at = {line.id: line for line in lines}
+        self._order = list(self._at)
 
     def lines(self) -> Iterator[Line]:
         return (self._at[name] for name in self._order)
@@ -292,7 +276,7 @@ class _Page:
         self._at[line.id] = Line(line.id, text, line.page, (*line.rows, row.id))
 
     def _insert(self, row: Row, behind: Line, texts: Sequence[str], inserted: int) -> int:
-        """Insert lines of a row after the line ``behind``, number them, and return the last number used."""
+        """Insert lines of a row after the line ``behind``, and return how many lines the row has inserted so far."""
         if texts:
             new = [f"{row.id}.{inserted + k}" for k in range(1, len(texts) + 1)]
             at = self._order.index(behind.id) + 1
@@ -304,7 +288,11 @@ class _Page:
 
 @lru_cache(4096)
 def on_form(text: str) -> str:
-    """Return a statement with its number and text in the columns of the coding form (C26-5619 p. 12)."""
+    """Return a card arranged as on the coding form (form C26-5619, p. 12).
+
+    The statement number is in columns 1 to 5.  The statement begins in column 7, or directly after its number if it
+    would otherwise extend beyond column 72.  Comments are not changed.
+    """
     if text.startswith("C  "):
         return text
     label_and_statement = text.strip()
@@ -329,18 +317,10 @@ def _row(head: Mapping[str, Any], raw: Mapping[str, Any]) -> Row:
     cause = str(raw.get("cause", _CAUSE.get(raw["layer"], "editor")))
     if cause not in _CAUSES:
         raise ApparatusError(f"{text_id}: row {name}: unknown cause {cause!r}; expected one of {', '.join(_CAUSES)}")
-    changes = tuple(
-        Change(
-            line=str(c["line"]),
-            witness=c.get("witness", ""),
-            lemma=c.get("lemma", ""),
-            after=bool(c.get("after", False)),
-            through=str(c.get("through", "")),
-            form=bool(c.get("form", False)),
-            dense=bool(c.get("dense", False)),
-        )
-        for c in raw["change"]
-    )
+    try:
+        changes = tuple(Change(**change) for change in raw["change"])
+    except TypeError as error:
+        raise ApparatusError(f"{text_id}: row {name}: a change with a missing or an unknown field: {error}") from None
     for change in changes:
         if not (change.witness or change.after or change.through or change.dense):
             raise ApparatusError(

@@ -14,7 +14,7 @@ from importlib.resources import files
 from importlib.resources.abc import Traversable
 from typing import Any
 
-from modern.edition.apparatus import Line, Text, build, load
+from modern.edition.apparatus import Text, build, load
 
 THEOREMS = ("4.1", "4.2", "4.8")
 
@@ -131,10 +131,10 @@ def printed_plane(equation: str) -> Vector:
     return tuple(coefficients[v] for v in ("x", "y", "z", ""))
 
 
-def theorem_faults(theorem: Theorem, text: Text, lines: Sequence[Line] | None = None) -> tuple[str, ...]:
+def theorem_faults(theorem: Theorem, text: Text) -> tuple[str, ...]:
     """Return the differences between a theorem's data and its text, and the claims that exact arithmetic refutes."""
     faults: list[str] = []
-    at = {line.id: "".join(line.text.split()) for line in (build(text) if lines is None else lines)}
+    at = {line.id: "".join(line.text.split()) for line in build(text)}
     name = f"theorem {theorem.id}"
     for point in theorem.points:
         if "".join(point.printed.split()) not in at.get(point.line, ""):

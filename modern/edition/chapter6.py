@@ -1,9 +1,9 @@
 """The layout of chapter 6 (``transcripts/chapter6/layout.toml``) and its committed device files.
 
-The printed text of chapter 6 gives words, numbers and their order.  The layout adds what the text lacks: columns and
-blank cards, which the OCR lost and the FORMAT statements determine (layer ``layout``), and the typewriter lines, which
-the thesis describes but does not print (layer ``stated``).  :mod:`modern.edition.chapter6_cards` combines text and
-layout into *device files*: an input deck, the cards that a program punches, or the lines that it types.
+A *device file* is an input deck, the cards that a program punches, or the lines that it types.  The printed text of
+chapter 6 supplies the words and numbers of these files in their order.  The layout supplies the columns and blank
+cards, which the OCR lost and the FORMAT statements determine (layer ``layout``), and the typed lines, which the thesis
+describes but does not print (layer ``stated``).  :mod:`modern.edition.chapter6_cards` combines text and layout.
 """
 
 import tomllib
@@ -21,8 +21,8 @@ Output = Literal["punch", "typewriter"]
 # The kind of a device file: the input deck, the punched cards or the typed lines.
 Device = Literal["deck", "punch", "typewriter"]
 
-# The layer of a device file: ``layout`` if only its blanks come from the layout, ``stated`` if the thesis states its
-# text but does not print it.
+# The layer of a device file: ``layout`` if the thesis prints it and only its blanks come from the layout, ``stated`` if
+# the thesis describes it in words.
 Origin = Literal["layout", "stated"]
 
 # The contents of a card; empty for headings and blank cards.
@@ -37,7 +37,10 @@ class LayoutError(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class Format:
-    """A FORMAT statement: ``text`` as restored, and ``listed`` as in the OCR text of the listing on ``page``."""
+    """A FORMAT statement: ``text`` is the restored text, ``listed`` the OCR text of the listing on ``page``.
+
+    ``note`` explains a difference between both texts.
+    """
 
     program: int
     number: int
@@ -49,8 +52,9 @@ class Format:
 
 @dataclass(frozen=True, slots=True)
 class Field:
-    """The columns ``first`` to ``last`` of a card, counted from 1.  ``word`` is True for printed words; numbers are
-    right-aligned.
+    """The columns ``first`` to ``last`` of a card, counted from 1.
+
+    ``word`` is True for a printed word and False for a number, which is right-aligned.
     """
 
     first: int
@@ -64,7 +68,10 @@ class Field:
 
 @dataclass(frozen=True, slots=True)
 class CardShape:
-    """One of the cards that a FORMAT punches for ``values`` numbers; ``record`` counts from 1, with blank cards."""
+    """One of the cards that a FORMAT punches for ``values`` numbers.
+
+    ``record`` is the number of the card among these cards, counted from 1; blank cards count.
+    """
 
     id: str
     program: int
@@ -72,12 +79,15 @@ class CardShape:
     record: int
     values: int
     fields: tuple[Field, ...]
-    source: str
 
 
 @dataclass(frozen=True, slots=True)
 class DeviceLayout:
-    """A device file: its printed lines and its cards with their roles, or (layer ``stated``) its typed lines."""
+    """The layout of a device file.
+
+    In the layer ``layout``, ``span`` has the ids of its first and last printed line, and ``cards`` its cards with their
+    roles.  In the layer ``stated``, ``typed`` has its lines.
+    """
 
     example: int
     program: int
@@ -87,7 +97,6 @@ class DeviceLayout:
     span: tuple[str, str] | None
     cards: tuple[tuple[CardShape, Role], ...]
     typed: tuple[str, ...]
-    source: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,9 +119,7 @@ def load_layout(folder: Traversable) -> Layout:
         fields = tuple(Field(first, last, kind == "l") for first, last, kind in raw["fields"])
         if raw["id"] in shapes:
             raise LayoutError(f"layout.toml: card {raw['id']} is defined twice")
-        shapes[raw["id"]] = CardShape(
-            raw["id"], raw["program"], raw["format"], raw["record"], raw["values"], fields, raw["source"]
-        )
+        shapes[raw["id"]] = CardShape(raw["id"], raw["program"], raw["format"], raw["record"], raw["values"], fields)
     return Layout(
         formats=formats,
         cards=tuple(shapes.values()),
@@ -144,13 +151,15 @@ def _device(raw: Mapping[str, Any], shapes: Mapping[str, CardShape]) -> DeviceLa
         span=(str(raw["lines"][0]), str(raw["lines"][1])) if "lines" in raw else None,
         cards=tuple(cards),
         typed=tuple(raw.get("typed", ())),
-        source=raw.get("source", ""),
     )
 
 
 @dataclass(frozen=True, slots=True)
 class Print:
-    """The lines that one device writes in one example, as the thesis prints or (for a typewriter) describes them."""
+    """The lines that a program writes on one device in one example.
+
+    The thesis prints the punched cards; it only describes the typed lines.
+    """
 
     example: int
     program: int
@@ -163,16 +172,16 @@ def chapter6_folder() -> Traversable:
     return files("transcripts").joinpath("chapter6")
 
 
-def input_deck(example: int, folder: Traversable | None = None) -> Deck:
+def input_deck(example: int) -> Deck:
+    """Return the data deck of an example, which program 1 reads."""
     name = f"example{example}/program1.deck"
-    text = (folder or chapter6_folder()).joinpath(*name.split("/")).read_text(encoding="ascii")
-    return deck_from_text(name, text)
+    return deck_from_text(name, chapter6_folder().joinpath(*name.split("/")).read_text(encoding="ascii"))
 
 
-def prints(example: int, folder: Traversable | None = None) -> Iterator[Print]:
-    """Yield the lines of each output device of each program of an example, as the thesis prints or states them."""
+def prints(example: int) -> Iterator[Print]:
+    """Yield the cards and the typed lines of each program that an example runs, as the thesis prints or states them."""
     outputs: tuple[Output, ...] = ("punch", "typewriter")
-    place = (folder or chapter6_folder()).joinpath(f"example{example}")
+    place = chapter6_folder().joinpath(f"example{example}")
     for program in (1, 2, 3):
         for device in outputs:
             entry = place.joinpath(f"program{program}.{device}")

@@ -6,8 +6,8 @@ cards.  The output of our runs is not used.
 """
 
 import re
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
@@ -57,12 +57,6 @@ class Chapter:
     layout: Layout
     layers: tuple[str, ...]
     without: frozenset[str]
-    # The index of each line in the print.
-    places: Mapping[str, int] = field(default_factory=dict, compare=False)
-    # A cache of cards by device file and lines, shared by a chapter and its variants.
-    read: dict[tuple[str, ...], tuple[Card, ...]] = field(default_factory=dict, compare=False)
-    # A cache of the last chapter built without a row, because several checks of the row use it.
-    last: "dict[str, Chapter]" = field(default_factory=dict, compare=False)
 
 
 def load_chapter(layers: Iterable[str] | None = None, without: Collection[str] = ()) -> Chapter:
@@ -79,33 +73,18 @@ def _text_and_layout() -> tuple[Text, Layout]:
 def rebuilt(text: Text, layout: Layout, layers: Iterable[str] | None = None, without: Collection[str] = ()) -> Chapter:
     """Return the chapter built from a text and a layout that have been read already."""
     applied = tuple(text.default if layers is None else layers)
-    return _chapter(text, build(text, applied, without), layout, applied, frozenset(without), {})
+    return Chapter(text, build(text, applied, without), layout, applied, frozenset(without))
 
 
 def without_row(chapter: Chapter, row_id: str) -> Chapter:
     """Return the chapter with all layers, but without a row and the rows that depend on it."""
-    if row_id not in chapter.last:
-        gone, lines = built_without(chapter.text, row_id)
-        chapter.last.clear()
-        chapter.last[row_id] = _chapter(chapter.text, lines, chapter.layout, chapter.text.layers, gone, chapter.read)
-    return chapter.last[row_id]
+    gone, lines = built_without(chapter.text, row_id)
+    return Chapter(chapter.text, lines, chapter.layout, chapter.text.layers, gone)
 
 
-def _chapter(
-    text: Text,
-    lines: tuple[Line, ...],
-    layout: Layout,
-    layers: tuple[str, ...],
-    without: frozenset[str],
-    read: dict[tuple[str, ...], tuple[Card, ...]],
-) -> Chapter:
-    return Chapter(text, lines, layout, layers, without, {line.id: i for i, line in enumerate(lines)}, read)
-
-
-def device_files(chapter: Chapter | None = None) -> tuple[tuple[int, int, Device, str], ...]:
+def device_files(chapter: Chapter) -> tuple[tuple[int, int, Device, str], ...]:
     """Return (example, program, device, file name) of every device file in the order of the chapter."""
-    layout = chapter.layout if chapter else load_layout(chapter6_folder())
-    return tuple((d.example, d.program, d.device, d.file) for d in layout.devices)
+    return tuple((d.example, d.program, d.device, d.file) for d in chapter.layout.devices)
 
 
 def device_layout(chapter: Chapter, example: int, program: int, device: Device) -> DeviceLayout:
@@ -119,11 +98,11 @@ def printed_lines(chapter: Chapter, entry: DeviceLayout) -> tuple[Line, ...]:
     """Return the lines of the corrected text that make up a device file; none for a typewriter."""
     if entry.span is None:
         return ()
-    places = chapter.places
+    ids = [line.id for line in chapter.print]
     for end in entry.span:
-        if end not in places:
+        if end not in ids:
             raise TranscriptError(f"{entry.file}: the corrected print has no line {end}")
-    return chapter.print[places[entry.span[0]] : places[entry.span[1]] + 1]
+    return chapter.print[ids.index(entry.span[0]) : ids.index(entry.span[1]) + 1]
 
 
 def cards(chapter: Chapter, example: int, program: int, device: Device) -> tuple[Card, ...]:
@@ -132,17 +111,13 @@ def cards(chapter: Chapter, example: int, program: int, device: Device) -> tuple
     if entry.layer == "stated":
         return tuple(Card(example, program, device, i, "", "", t, ()) for i, t in enumerate(entry.typed, start=1))
     lines = printed_lines(chapter, entry)
-    key = (entry.file, *(text for line in lines for text in (line.id, line.text)))
-    if key in chapter.read:
-        return chapter.read[key]
     reader = _Reader(entry.file, lines)
     result = []
     for number, (shape, role) in enumerate(entry.cards, start=1):
         tokens = tuple(reader.take(field, number, shape) for field in shape.fields)
         result.append(Card(example, program, device, number, shape.id, role, _image(tokens), tokens))
     reader.finish()
-    chapter.read[key] = tuple(result)
-    return chapter.read[key]
+    return tuple(result)
 
 
 def card_images(chapter: Chapter, example: int, program: int, device: Device) -> tuple[str, ...]:

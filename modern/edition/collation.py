@@ -1,24 +1,25 @@
-"""Collate another transcription of the listings with the edition: classify every reading of every card.
+"""Collate another transcription of the listings with the edition: compare the two, token by token.
 
-:mod:`modern.edition.transcription` finds the characters of each card, and :mod:`modern.edition.tokens` its readings and
-their rivals.  A reading gets one of four verdicts:
+:mod:`modern.edition.transcription` finds the characters of each card in the transcription.
+:mod:`modern.edition.tokens` divides the card into tokens and finds their rivals, which are other possible readings.
+Each token gets one of four verdicts:
 
-``confirms``          the transcription has the reading, and no rival explains its characters
-``supports a rival``  it has a rival, and the reading of the edition does not explain its characters
-``contradicts``       it has another token of the same kind, which the reading of the edition does not explain
-``unreadable``        it lacks the place, has something that cannot stand there, or both texts explain its characters
+``confirms``          the transcription has the token of the edition, and these characters are no misread rival
+``supports a rival``  the transcription has a rival, and these characters are no misreading of the edition's token
+``contradicts``       the transcription has another token of the same kind, which is no misreading of the edition's
+``unreadable``        the transcription lacks the place, has characters that cannot stand there, or has characters that
+                      may be a misreading of the token or of a rival
 
-A text *explains* characters if the transcription may show these characters because it misread the text by pairs of the
-table of confusables.  A pair is not used if the transcription has the original character of the pair in at least
-:data:`ENOUGH` places and never misreads it in this way.  A misreading that is not in the table is used if it occurs
-at least twice.
+Characters may be a misreading of a text if the pairs of the table of confusables turn the text into these characters.
+A pair is not used if the transcription has the original character of the pair in at least :data:`ENOUGH` places and
+never misreads it in this way.  A misreading that is not in the table is used if it occurs at least twice.
 """
 
 import hashlib
 import json
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import groupby
@@ -37,17 +38,17 @@ Verdict = Literal["confirms", "supports a rival", "contradicts", "unreadable"]
 VERDICTS: tuple[Verdict, ...] = ("confirms", "supports a rival", "contradicts", "unreadable")
 _LETTER: Mapping[Verdict, str] = {verdict: verdict[0] for verdict in VERDICTS} | {"contradicts": "x"}
 _VERDICT = {letter: verdict for verdict, letter in _LETTER.items()}
-# If a character was transcribed this often and never misread in a certain way, the transcription is taken not to make
-# this misreading.
+# If a transcription has a character this often and never misreads it in a certain way, the edition assumes that the
+# transcription does not make this misreading.
 ENOUGH = 300
-# Errors are counted on cards of which at most this share is misread, because other cards may be misaligned.
+# Misreadings are counted on cards of which at most this share is misread, because other cards may be misaligned.
 SOUND = 0.25
 FORMAT = "hull1620 collation 1"
 
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """A token of a card with the text of the transcription and the verdict; ``rival`` is the supported rival."""
+    """A token of a card: its text in the edition and in the transcription, the verdict, and the supported rival."""
 
     edition: str
     transcription: str
@@ -57,7 +58,7 @@ class Reading:
 
 @dataclass(frozen=True, slots=True)
 class CollatedCard:
-    """A card of the edition, by its index, with the lines of the transcription that hold it and its readings."""
+    """A card of the edition, by its index: the lines of the transcription that contain it, and its tokens."""
 
     card: int
     lines: tuple[int, ...]
@@ -66,7 +67,10 @@ class CollatedCard:
 
 @dataclass(frozen=True, slots=True)
 class Collation:
-    """A collated transcription: its id, its size, the hash of its text, and every card of the edition."""
+    """The collation of a transcription: its id and file, the hash and number of lines of its text, and its cards.
+
+    ``cards`` has every card of the edition in order, also those that the transcription lacks.
+    """
 
     id: str
     file: str
@@ -91,8 +95,9 @@ def collate(text: str, file: str = "", name: str = "") -> Collation:
 def _pieces(n: int, line: str) -> tuple[str, ...]:
     """Return the characters of a line that align with each token of a card.
 
-    A mark between two tokens that the OCR may have inserted belongs to neither.  Any other character belongs to the
-    token before it. But a letter or digit belongs to the token after it if only that token has one at this place.
+    A character that stands between two tokens and aligns with neither belongs to the first token, or to the second
+    token if it is a letter or digit and only the second token has one there.  A mark that the OCR may have inserted is
+    omitted.
     """
     tokens, marks = spans(n), _marks()
     owner = [k for k, (a, b) in enumerate(tokens) for _ in range(a, b)]
@@ -116,7 +121,7 @@ def _marks() -> frozenset[str]:
 
 
 def _pairs(aligned: Mapping[int, tuple[str, tuple[int, ...]]]) -> tuple[Pair, ...]:
-    """Return the pairs of characters that the transcription may have confused (see the module's docstring)."""
+    """Return the pairs of characters that the transcription may have confused (see the docstring of the module)."""
     places: Counter[str] = Counter()
     errors: Counter[tuple[str, str]] = Counter()
     for n, (line, _) in aligned.items():
@@ -176,15 +181,13 @@ def _readings(n: int, aligned: tuple[str, ...] | None, pairs: tuple[Pair, ...]) 
 
 
 def _is_truncated(pieces: Sequence[str], k: int, token: str) -> bool:
-    """Return True if a line begins or ends within the token, so that the line holds only a part of the token and
-    nothing beyond it.
-    """
+    """Return True if the line ends within the token, or begins within it."""
     ends = k + 1 < len(pieces) and not any(pieces[k + 1 :]) and token.startswith(pieces[k])
     return ends or (k > 0 and not any(pieces[:k]) and token.endswith(pieces[k]))
 
 
 def _kind(token: str) -> str:
-    """Return the kind of a token: number, name, operator, or an empty text for characters that no card can have."""
+    """Return the kind of a token (``number``, ``name`` or ``sign``), or an empty text if it is none of these."""
     for kind, pattern in (("number", r"\d+"), ("name", r"[A-Z][A-Z0-9]*"), ("sign", r"[-+*/=.,()]+")):
         if re.fullmatch(pattern, token):
             return kind
@@ -192,7 +195,11 @@ def _kind(token: str) -> str:
 
 
 def to_json(collation: Collation) -> str:
-    """Return a collation as JSON, one card on a line: a letter for each reading, and what differs."""
+    """Return a collation as JSON, with one card on each line.
+
+    A card has the letter of the verdict on each token, and the transcription's text of the tokens that it does not
+    confirm.
+    """
     head = {"format": FORMAT, "id": collation.id, "file": collation.file, "sha256": collation.sha256}
     head |= {"lines": str(collation.lines), "edition": _edition()}
     lines = []
@@ -209,7 +216,11 @@ def to_json(collation: Collation) -> str:
 
 
 def from_json(text: str, source: str) -> Collation:
-    """Read a collation.  Raise ApparatusError if the text is not one, or belongs to other cards of the edition."""
+    """Read a collation that :func:`to_json` wrote.
+
+    ``source`` is the name of the file for messages.  Raise ApparatusError if the text is not a collation, or if it was
+    made for other cards of the edition.
+    """
     try:
         data = json.loads(text)
         if data["format"] != FORMAT:
@@ -239,12 +250,11 @@ def _card(n: int, raw: list[object]) -> CollatedCard:
 
 @cache
 def _edition() -> str:
-    """Return the hash of the cards of the edition."""
     return hashlib.sha256("\n".join(card.solid for card in edition_cards()).encode()).hexdigest()
 
 
 def to_csv(collation: Collation) -> str:
-    """Return a collation as a table with a row for each reading."""
+    """Return a collation as a CSV table with a row for each token."""
     rows: list[tuple[object, ...]] = [
         ("program", "card", "place", "lines", "reading", "edition", "transcription", "verdict", "rival")
     ]
@@ -257,9 +267,9 @@ def to_csv(collation: Collation) -> str:
 
 
 def report(collation: Collation, text: str) -> Iterator[str]:
-    """Yield a summary: cards, lines without a card, readings by verdict, errors shared with the witness, differences.
+    """Yield the lines of a summary: the numbers of cards and of tokens with each verdict, and the differences.
 
-    ``text`` is the transcription.  Only the cards that it contains count.
+    ``text`` is the transcription.  Only the cards that it contains are counted.
     """
     aligned = [card for card in collation.cards if card.lines]
     yield f"cards: {len(aligned)} of {len(collation.cards)} are in the transcription"
@@ -284,27 +294,28 @@ def report(collation: Collation, text: str) -> Iterator[str]:
 
 
 def _ranges(numbers: Sequence[int], most: int = 10) -> str:
-    """Return numbers as ranges such as ``1-3, 7``, at most the first ``most`` of them."""
+    """Return ascending numbers as text, such as ``1-3, 7``, with at most the first ``most`` ranges."""
     runs = [[n for _, n in run] for _, run in groupby(enumerate(numbers), lambda pair: pair[1] - pair[0])]
     texts = [f"{run[0]}-{run[-1]}" if len(run) > 1 else f"{run[0]}" for run in runs]
     return ", ".join(texts[:most]) + (", ..." if len(texts) > most else "")
 
 
 def shared_errors(collation: Collation) -> tuple[int, int]:
-    """Return how many misreadings of the OCR text a transcription shares, and how many it could share.
+    """Return how many misreadings of the OCR text are in a transcription too, and how many could be.
 
-    A transcription that shares most of them was probably made from the same OCR or scan and is not independent.
+    A transcription that shares most of the misreadings was probably made from the same OCR text or scan and is not
+    independent.
     """
     shared = places = 0
     for row in (row for name in programs.TEXTS for row in programs.text(name).rows if row.kind == "misread"):
-        for reading in _of_row(collation, row):
+        for _, same in _of_row(collation, row):
             places += 1
-            shared += reading[1]
+            shared += same
     return shared, places
 
 
 def _of_row(collation: Collation, row: Row) -> Iterator[tuple[Verdict, bool]]:
-    """Yield, for each place that a row changes, the verdict, and whether the transcription has the OCR reading."""
+    """Yield, for each place that a row changes, the verdict, and True if the transcription has the OCR reading."""
     for n, rival in row_rivals(row):
         card = collation.cards[n]
         if card.lines:
@@ -315,28 +326,20 @@ def _of_row(collation: Collation, row: Row) -> Iterator[tuple[Verdict, bool]]:
             yield decided, same
 
 
-def row_verdicts(collation: Collation, row: Row) -> tuple[Verdict, ...]:
-    """Return the verdict of a collated transcription on each place that a row changes."""
-    return tuple(verdict for verdict, _ in _of_row(collation, row))
-
-
 @cache
 def registered() -> tuple[Collation, ...]:
-    """Return the collations that SOURCES.toml names, with the ids of the transcriptions.
+    """Return the collations that SOURCES.toml names, with the ids of their transcriptions.
 
     Raise ApparatusError if a file is not a collation of these listings.
     """
-    collations = []
-    for entry in sources().transcriptions:
-        if entry.file:
-            collations.append(replace(from_json(read(entry.file), entry.file), id=entry.id))
-    return tuple(collations)
+    entries = (entry for entry in sources().transcriptions if entry.file)
+    return tuple(replace(from_json(read(entry.file), entry.file), id=entry.id) for entry in entries)
 
 
-def verdicts_by_id(row: Row, collations: Iterable[Collation] | None = None) -> dict[str, tuple[Verdict, ...]]:
-    """Return the verdicts of every registered collation on a row, by the id of the collation.  Collations without a
-    verdict are omitted.
+def verdicts_by_id(row: Row) -> dict[str, tuple[Verdict, ...]]:
+    """Return the verdicts of every registered collation on the places that a row changes, by the collation's id.
+
+    A collation that has none of these places is omitted.
     """
-    known = registered() if collations is None else collations
-    by_id = {collation.id: row_verdicts(collation, row) for collation in known}
+    by_id = {collation.id: tuple(verdict for verdict, _ in _of_row(collation, row)) for collation in registered()}
     return {name: verdicts for name, verdicts in by_id.items() if verdicts}

@@ -1,16 +1,15 @@
 """Run the examples of chapter 6 and give a verdict on every printed result.
 
-Each example runs twice, with two states of program 1.  One state produced the examples and was reconstructed from them.
-The other is the listing of chapter 5, which chooses its first points differently.  Programs 2 and 3 then read the
+Each example is run with two states of program 1: the state that produced the printed examples, which was reconstructed
+from them, and the listing of chapter 5, which chooses its first points differently.  Programs 2 and 3 then read the
 punched cards.  The printed text proves numbers, signs, order and words.  It does not prove blank cards and columns,
 which the OCR lost and the FORMATs supply.  A verdict therefore counts blank cards separately.
 """
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from importlib.resources.abc import Traversable
 from typing import Final, Literal
 
 from emulator.errors import EmulatorError
@@ -40,10 +39,11 @@ _NUMBER = re.compile(r"[+-]?\.\d+E[+-]\d\d|(?<![A-Z0-9.])\d+")
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """A verdict on the output of one device, with counts of printed numbers, words and cards, and of blank cards.
+    """A verdict on the output of one device, with the numbers of printed numbers, words, nonblank and blank cards.
 
-    ``differences`` are (card, printed, produced), with an empty string for a missing card.  ``same`` gives the number
-    of elements of each part that agrees in another order.  It is empty for any other verdict.
+    ``differences`` has a triple for each card that differs: its number, the printed and the produced card.  A missing
+    card is an empty string.  If the verdict is that the output is exact in another order, ``same`` has the number of
+    elements of each part; otherwise it is empty.
     """
 
     kind: Kind
@@ -56,13 +56,16 @@ class Verdict:
 
     @property
     def holds(self) -> bool:
-        """True if the output agrees with the print in some order."""
+        """True if the output agrees with the print, also if its order is another one."""
         return self.kind != DIFFERENT
 
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """The verdict on one device of one example; ``ending`` is None if the program did not start."""
+    """The verdict on the output of one program on one device, in one example with one state of program 1.
+
+    ``ending`` is the ending of the program's run, the error that ended the job, or None if the program did not run.
+    """
 
     example: int
     state: State
@@ -83,23 +86,22 @@ class Report:
 def reproduce(
     examples: Iterable[int] = EXAMPLES,
     load: Load = programs.program,
-    folder: Traversable | None = None,
-    states: Iterable[State] = STATES,
+    states: Collection[State] = STATES.keys(),
 ) -> Iterator[Report]:
-    """Run examples, by default with the committed programs and print, and judge the output of each device."""
-    states = tuple(states)
+    """Run examples with the given states of program 1, and judge the output of each device.
+
+    ``load`` returns the compiled program of a name.
+    """
     for example in examples:
-        expected = tuple(prints(example, folder))
+        expected = tuple(prints(example))
         for state in states:
-            yield from _reports(example, state, expected, load, folder)
+            yield from _reports(example, state, expected, load)
 
 
 def summary(reports: Iterable[Report]) -> tuple[bool, int, int, int]:
-    """Return True if all results are reproduced, otherwise False, and the numbers of exact, reordered and all other
-    results.
+    """Return whether all results are reproduced, and the numbers of exact results, of reordered ones, and of others.
 
-    In the state of the examples every result must be exact.  In the state of the listing a result may be in another
-    order.
+    With the state of the examples, a result is reproduced if it is exact.  With the listing, its order may differ.
     """
     kinds = [(report.state, report.verdict.kind) for report in reports]
     exact = sum(kind == EXACT for _, kind in kinds)
@@ -108,13 +110,11 @@ def summary(reports: Iterable[Report]) -> tuple[bool, int, int, int]:
     return all_reproduced, exact, order, len(kinds) - exact - order
 
 
-def _reports(
-    example: int, state: State, expected: tuple[Print, ...], load: Load, folder: Traversable | None
-) -> Iterator[Report]:
+def _reports(example: int, state: State, expected: tuple[Print, ...], load: Load) -> Iterator[Report]:
     job_error: EmulatorError | None = None
     steps: tuple[Step, ...] = ()
     try:
-        steps = run_hull(input_deck(example, folder), load, Options(limit=200_000), STATES[state]).steps
+        steps = run_hull(input_deck(example), load, Options(limit=200_000), STATES[state]).steps
     except EmulatorError as error:
         job_error = error
     last = max(p.program for p in expected)
@@ -134,9 +134,10 @@ def _reports(
 
 
 def compare(printed: Sequence[str], produced: Sequence[str], final: bool, oriented: bool) -> Verdict:
-    """Return the verdict on the lines of a device.
+    """Return the verdict on the lines that a program wrote on a device.
 
-    ``final`` is True if the cards hold a hull, ``oriented`` if the signs of its equations must agree too.
+    ``final`` is True if the lines hold a hull, and False for a deck for the next program.  ``oriented`` is True if the
+    signs of the hull's equations must agree too.
     """
     tokens = [token for line in printed for token in line.split()]
     numbers = sum(len(_NUMBER.findall(line)) for line in printed)
@@ -155,7 +156,6 @@ def compare(printed: Sequence[str], produced: Sequence[str], final: bool, orient
 
 
 def _agreement(printed: Sequence[str], final: bool) -> tuple[tuple[Part, int], ...]:
-    """Return the parts of a result, such as its vertices, with the number of elements of each."""
     if not final:
         middle = read_intermediate(printed)
         return (("points", len(middle.points)),) if middle else ()
@@ -178,14 +178,14 @@ def _headings(lines: Sequence[str]) -> Counter[str]:
 
 
 def _same_results(printed: Sequence[str], produced: Sequence[str], oriented: bool) -> bool:
-    """Return True if both hulls are equal except for the order of their parts, which must differ, and the headings."""
+    """Return True if the headings are equal, and the hulls differ, but only in the order of their parts."""
     printed_hull, produced_hull = read_hull(printed), read_hull(produced)
     in_other_order = printed_hull != produced_hull and same_hull(printed_hull, produced_hull, oriented)
     return in_other_order and _headings(printed) == _headings(produced)
 
 
 def _same_deck(printed: Sequence[str], produced: Sequence[str]) -> bool:
-    """Return True if both decks have the same N and points, in another order, and the planes fit the new order."""
+    """Return True if the decks have the same points in another order, and the produced planes fit the new order."""
     expected, actual = read_intermediate(printed), read_intermediate(produced)
     if expected is None or actual is None or expected.points == actual.points:
         return False

@@ -1,12 +1,12 @@
-"""The readings of a card: its tokens, and the rival readings that no check of the edition excludes.
+"""Divide cards into tokens, and find the other possible readings of these tokens, which are called rivals.
 
-A *reading* is a token of a card: the statement number, a keyword, a name, a number, a sign, or a word of a comment or
-of a Hollerith text.  A *rival* is another text for one or more consecutive tokens.  The rivals are the alterations that
-no check detects (``fortran_src/silent.csv``, written by :mod:`modern.edition.weight`) and the readings that rows of the
-layers ``print`` and ``lacuna`` replace.  The rows of the layer ``ocr`` are certain and leave no rival.
+A *token* of a card is its statement number, a keyword, a name, a number, a sign, or a word of a comment or of a
+Hollerith text.  A *rival* is another text for one or more consecutive tokens.  The rivals are the alterations that no
+check detects (``fortran_src/silent.csv``, written by :mod:`modern.edition.weight`) and the readings that rows of the
+layers ``print`` and ``lacuna`` replace.  The readings that rows of the layer ``ocr`` replace are certainly wrong and
+are no rivals.
 """
 
-import csv
 import re
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
@@ -17,6 +17,7 @@ from modern.edition import programs
 from modern.edition.apparatus import Row, build
 from modern.edition.edits import common_prefix
 from modern.edition.readings import solid
+from modern.edition.sheets import silent_readings
 from modern.edition.transcription import EditionCard, edition_cards
 
 _KEYWORD = re.compile(r"GOTO|(?:DO|READ|PUNCH|PRINT)(?=\d)|IF(?=\()|DIMENSION|CONTINUE|END$|FORMAT")
@@ -35,7 +36,10 @@ class Rival:
 
 @cache
 def spans(card: int) -> tuple[tuple[int, int], ...]:
-    """Return the first and the last character (exclusive) of each token in the solid text of a card."""
+    """Return the first and the last character (exclusive) of each token of a card, whose text has no blanks.
+
+    ``card`` is the index of the card in the edition (:func:`modern.edition.transcription.edition_cards`).
+    """
     entry = edition_cards()[card]
     if entry.text.startswith("C") and not entry.label:
         line = programs.committed(entry.program).cards[entry.number - 1].text
@@ -52,7 +56,7 @@ def _words(line: str, at: int) -> Iterator[tuple[int, int]]:
 
 
 def _tokens(entry: EditionCard) -> Iterator[tuple[int, int]]:
-    """Yield the tokens of a statement.  A Hollerith text is divided into words; its count includes the blanks."""
+    """Yield the tokens of a statement.  The words of a Hollerith text are tokens; its count includes the blanks."""
     at, text = 0, entry.text
     offset = len(entry.label)
     keyword = _KEYWORD.match(text)
@@ -86,11 +90,10 @@ def _tokens(entry: EditionCard) -> Iterator[tuple[int, int]]:
 
 @cache
 def rivals() -> Mapping[int, tuple[Rival, ...]]:
-    """Return the rivals of each card, by its index in the edition."""
+    """Return the rivals of each card by the index of the card in the edition."""
     number_of = {(card.program, card.number): n for n, card in enumerate(edition_cards())}
     table: dict[int, list[Rival]] = defaultdict(list)
-    text = programs.sources().joinpath("silent.csv").read_text(encoding="utf-8")
-    for entry in csv.DictReader(text.splitlines()):
+    for entry in silent_readings():
         if entry["reads"]:
             n = number_of[entry["program"], int(entry["card"])]
             card = edition_cards()[n]
@@ -104,19 +107,13 @@ def rivals() -> Mapping[int, tuple[Rival, ...]]:
 
 @cache
 def _lines(name: str) -> Mapping[str, int]:
-    """Return the card number of each line of a built text, by the id of the line."""
     return {line.id: number for number, line in enumerate(build(programs.text(name)), 1)}
 
 
 def row_rivals(row: Row) -> Iterator[tuple[int, Rival]]:
-    """Yield each card that a row of a committed listing changes, with the reading that the row replaces."""
-    yield from ((n, _rival(n, reading, row.id)) for n, reading in _row_readings(row))
+    """Yield each card that a row of a committed listing changes, with the replaced reading as a rival.
 
-
-def _row_readings(row: Row) -> Iterator[tuple[int, str]]:
-    """Yield each card that a row changes, with its solid text before the row.
-
-    Rows that change only blanks or move words have no readings.  A card that the row adds has an empty reading.
+    Rows that only change blanks or move words have no rivals.  The rival of a card that the row adds is empty.
     """
     if row.text not in programs.TEXTS or row.layer not in programs.built_in(row.text).layers:
         return
@@ -130,16 +127,16 @@ def _row_readings(row: Row) -> Iterator[tuple[int, str]]:
                 inserted += 1
                 number = _lines(row.text).get(f"{row.id}.{inserted}")
                 if number:
-                    yield first + number, ""
+                    yield first + number, _rival(first + number, "", row.id)
         elif len(pieces) == 1 and before != pieces[0] and row.kind != "displaced" and change.line in _lines(row.text):
             n = first + _lines(row.text)[change.line]
             text = edition_cards()[n].solid
             if pieces[0] and text.count(pieces[0]) == 1:
-                yield n, text.replace(pieces[0], before)
+                yield n, _rival(n, text.replace(pieces[0], before), row.id)
 
 
 def _rival(n: int, reading: str, origin: str) -> Rival:
-    """Return a reading of a whole card as a rival of the smallest run of tokens that contains the difference."""
+    """Return another reading of a whole card as a rival of the tokens that differ."""
     text, tokens = edition_cards()[n].solid, spans(n)
     head = common_prefix(text, reading)
     tail = min(common_prefix(text[::-1], reading[::-1]), len(text) - head, len(reading) - head)

@@ -1,12 +1,12 @@
-"""The weight of evidence: run every variant of the listings and record the first check that detects it.
+"""The weight of evidence: run every variant of the listings and record the first check that detects the variant.
 
-The checks of a variant (:mod:`modern.edition.variants`), in this order:
+A variant is a listing with one altered token (:mod:`modern.edition.variants`).  The checks, in this order:
 
 ``compiler``  the deck no longer compiles
 ``no change`` the object code is the same, so the variant is not a different reading and is not counted
-``print``     an example of chapter 6 is no longer reproduced.  Program 1 runs in the state of the examples if the card
-              is in it, and programs 2 and 3 run on the printed intermediate decks.  If the card occurs only in the
-              listing, the output of the listing must differ from the printed result in more than its order.
+``print``     an example of chapter 6 is no longer reproduced.  Program 1 runs in the state that produced the examples,
+              and programs 2 and 3 run on the printed intermediate decks.  If only the listing of program 1 has the
+              card, the listing runs, and its output must differ from the printed result in more than its order.
 ``machine``   the variant gives other results than the listing for a data deck for which an independent second
               restoration of the listing confirmed the results
 ``equation``  the card computes a formula of chapter 3 (:data:`EQUATIONS`, compiled by hand)
@@ -14,9 +14,9 @@ The checks of a variant (:mod:`modern.edition.variants`), in this order:
               form that no card has
 ``nothing``   no check detects the variant
 
-``equation`` and ``sibling`` are comparisons that a reader makes, not runs.  A variant is run only on decks for which
-the listing executes the card, until a result differs.  Each answer is stored at once, so that work can be resumed.
-
+``equation`` and ``sibling`` are comparisons that a reader can make without running the program.  A variant is run only
+on decks for which the listing executes the card, until a result differs.  Each answer is stored at once, so that an
+interrupted run can be resumed.
 """
 
 import hashlib
@@ -46,12 +46,15 @@ from modern.thesis.job import punched_deck, run_hull
 
 NOTICED = ("compiler", "print", "machine", "equation", "sibling", "nothing")
 CORE = 60_000
+# The parts of a compiled program in which a variant must differ from the listing to be counted.
+_PARTS = ("code", "formats", "branches", "subscripts", "loops", "storage")
 # The variants that a process judges before it returns their answers.
 _CHUNK = 20
 # The run of a variant is stopped after LIMIT_FACTOR times the statements of the listing's run, plus LIMIT_EXTRA.
 LIMIT_FACTOR, LIMIT_EXTRA = 3, 5_000
 
-# Program, first card, last card, and the formula of chapter 3 that their floating-point assignments compute.
+# A program, a first and a last card, and the formula of chapter 3 that the floating-point assignments on these cards
+# compute.
 EQUATIONS: tuple[tuple[str, str, str, str], ...] = (
     ("program1", "113", "113+2", "(3.1)"),
     ("program1", "114", "114+2", "(3.2)"),
@@ -70,23 +73,33 @@ EQUATIONS: tuple[tuple[str, str, str, str], ...] = (
 
 
 @dataclass(frozen=True, slots=True)
+class Input:
+    """A deck that the listing reads, with the check that uses it (``print`` or ``machine``) and the listing's result.
+
+    ``example`` is the number of the example from which the deck comes, or 0.
+    """
+
+    kind: str
+    example: int
+    deck: Deck
+    result: Result
+
+
+@dataclass(frozen=True, slots=True)
 class Bench:
-    """A program and its decks; for each deck its kind, ``print`` or ``machine``, the result, and the example or 0."""
+    """A built-in program with the decks on which its variants are run."""
 
     program: Program
-    decks: tuple[Deck, ...]
-    kinds: tuple[str, ...]
-    results: tuple[Result, ...]
-    examples: tuple[int, ...]
+    inputs: tuple[Input, ...]
 
-    def reaching(self, statement: int) -> Sequence[int]:
-        """Return the decks whose run executes a statement."""
+    def reaching(self, statement: int) -> Sequence[Input]:
+        """Return the inputs for which the program executes a statement, given by its index."""
         counters = [n for n, c in enumerate(self.program.counters) if c.statement == statement and c.begins]
-        return [d for d, result in enumerate(self.results) if any(result.counts[n] for n in counters)]
+        return [each for each in self.inputs if any(each.result.counts[n] for n in counters)]
 
 
 def benches(runs: str) -> dict[str, Bench]:
-    """Return every built-in program with the decks that it reads: those of the examples, and ``runs``/*/deck.cards."""
+    """Return every built-in program with its input decks, from the examples and the files ``runs``/*/deck.cards."""
     known = [
         ("machine", 0, deck_from_text(path.parent.name, path.read_text(encoding="ascii")))
         for path in (sorted(Path(runs).glob("*/deck.cards")) if runs else ())
@@ -101,16 +114,18 @@ def benches(runs: str) -> dict[str, Bench]:
             punched_by = "program1_examples" if kind == "print" else "program1"
             if len(steps) > 1 and first == punched_by:
                 decks[steps[1].name].append((kind, number, punched_deck(steps[0])))
-    return {name: _bench(programs.program(name), inputs) for name, inputs in decks.items()}
-
-
-def _bench(program: Program, decks: Sequence[tuple[str, int, Deck]]) -> Bench:
-    kinds, numbers, cards = zip(*decks, strict=True)
-    results = tuple(run_batch(program, cards, Options(limit=100_000, core=CORE)))
-    return Bench(program, tuple(cards), tuple(kinds), results, tuple(numbers))
+    known_programs = {}
+    for name, inputs in decks.items():
+        program = programs.program(name)
+        results = run_batch(program, [deck for _, _, deck in inputs], Options(limit=100_000, core=CORE))
+        known_programs[name] = Bench(
+            program, tuple(Input(*each, result) for each, result in zip(inputs, results, strict=True))
+        )
+    return known_programs
 
 
 def judged(variant: Variant, known: dict[str, Bench]) -> str:
+    """Return the name of the first check that detects a variant.  ``known`` is the result of :func:`benches`."""
     if variant.how == "number" and not _numbers(variant.reads) <= _numbers(variant.was) | _labels(variant.program):
         return "compiler"
     try:
@@ -121,18 +136,11 @@ def judged(variant: Variant, known: dict[str, Bench]) -> str:
         program = compile_deck(deck)
     except (EmulatorError, Refused):
         return "compiler"
-    bench = known[variant.program]
-    if (program.code, program.formats, program.branches, program.subscripts, program.loops) == (
-        bench.program.code,
-        bench.program.formats,
-        bench.program.branches,
-        bench.program.subscripts,
-        bench.program.loops,
-    ) and program.storage == bench.program.storage:
+    listing = known[variant.program].program
+    if all(getattr(program, part) == getattr(listing, part) for part in _PARTS):
         return "no change"
-    kinds = _run(variant, program, known)
-    if kinds:
-        return kinds
+    if kind := _run(variant, program, known):
+        return kind
     if equation_of(variant.program, variant.place):
         return "equation"
     return "sibling" if _unlike(variant) else "nothing"
@@ -148,60 +156,50 @@ def _labels(name: str) -> frozenset[str]:
 
 
 def _run(variant: Variant, program: Program, known: dict[str, Bench]) -> str:
-    bench, run = known[variant.program], _begun(variant.program)
-    reached = bench.reaching(run.index(variant.card)) if variant.card in run else range(len(bench.decks))
-    prints = [d for d in reached if bench.kinds[d] == "print"]
-    if variant.program == "program1":
-        in_examples = _in_the_examples(variant)
-        if in_examples is not None:
-            examples_bench = known["program1_examples"]
-            if any(
-                _differs(in_examples, examples_bench, d) for d, k in enumerate(examples_bench.kinds) if k == "print"
-            ):
-                return "print"
-        elif any(_disagrees(program, bench, d) for d in prints):
-            return "print"
-    elif any(_differs(program, bench, d) for d in prints):
+    bench = known[variant.program]
+    cards = [line.place.card for line in bench.program.statements]
+    reached = bench.reaching(cards.index(variant.card)) if variant.card in cards else bench.inputs
+    in_examples = _in_the_examples(variant) if variant.program == "program1" else None
+    if in_examples is not None:
+        prints = [each for each in known["program1_examples"].inputs if each.kind == "print"]
+        changes_print = any(_differs(in_examples, each) for each in prints)
+    else:
+        differs = _disagrees if variant.program == "program1" else _differs
+        changes_print = any(differs(program, each) for each in reached if each.kind == "print")
+    if changes_print:
         return "print"
-    return "machine" if any(_differs(program, bench, d) for d in reached if bench.kinds[d] == "machine") else ""
+    return "machine" if any(_differs(program, each) for each in reached if each.kind == "machine") else ""
 
 
-def _begun(name: str) -> list[int]:
-    """Return the card on which each executable statement begins, in the order of Program.statements."""
-    return [line.place.card for line in programs.program(name).statements]
+def _differs(program: Program, data: Input) -> bool:
+    actual = _result(program, data)
+    return actual is None or _output(actual) != _output(data.result)
 
 
-def _differs(program: Program, bench: Bench, d: int) -> bool:
-    expected, actual = bench.results[d], _result(program, bench, d)
-    if actual is None:
-        return True
-    return (expected.punched, expected.typed, expected.ending.kind) != (
-        actual.punched,
-        actual.typed,
-        actual.ending.kind,
-    )
+def _output(result: Result) -> tuple[object, ...]:
+    return result.punched, result.typed, result.ending.kind
 
 
-def _result(program: Program, bench: Bench, d: int) -> Result | None:
-    limit = LIMIT_FACTOR * bench.results[d].statements + LIMIT_EXTRA
+def _result(program: Program, data: Input) -> Result | None:
+    limit = LIMIT_FACTOR * data.result.statements + LIMIT_EXTRA
     try:
-        return run_batch(program, [bench.decks[d]], Options(limit=limit, core=CORE))[0]
+        return run_batch(program, [data.deck], Options(limit=limit, core=CORE))[0]
     except EmulatorError:
         return None
 
 
-def _disagrees(program: Program, bench: Bench, d: int) -> bool:
+def _disagrees(program: Program, data: Input) -> bool:
     """Return True if the output of program 1 as listed differs from the print in more than its order."""
-    actual, example = _result(program, bench, d), bench.examples[d]
-    if actual is None or actual.typed != bench.results[d].typed:
+    actual = _result(program, data)
+    if actual is None or actual.typed != data.result.typed:
         return True
-    prints = [p for p in chapter6.prints(example) if p.program == 1 and p.device == "punch"]
-    final = max(p.program for p in chapter6.prints(example)) == 1
+    prints = [p for p in chapter6.prints(data.example) if p.program == 1 and p.device == "punch"]
+    final = max(p.program for p in chapter6.prints(data.example)) == 1
     return any(compare(p.lines, actual.punched, final, oriented=False).kind == DIFFERENT for p in prints)
 
 
 def _in_the_examples(variant: Variant) -> Program | None:
-    """Compile the same change of program1_examples; return None if it lacks the card or does not compile."""
+    """Return program1_examples with the same change, or None if it lacks the card or does not compile with it."""
     examples = {(s.place, s.source.label, s.source.text): s for s in statements("program1_examples")}
     listed = next(s for s in statements("program1") if s.card == variant.card)
     counterpart = examples.get((listed.place, listed.source.label, listed.source.text))
@@ -238,7 +236,10 @@ def _form(text: str) -> str:
 
 
 def alike(text: str) -> int:
-    """Count the other cards of the three listings that have the form (``_form``) of a statement."""
+    """Return the number of other cards of the three listings that have the same form as a statement.
+
+    Two statements have the same form if exchanging names and numbers makes them equal.
+    """
     return max(_forms()[_form(text)] - 1, 0)
 
 
@@ -265,10 +266,11 @@ def _judge(chunk: Sequence[Variant]) -> list[str]:
 
 
 def weigh(folder: Path, runs: str, workers: int = 1, most: int = 0) -> dict[str, str]:
-    """Judge every variant, or the first ``most`` of them, and map the key of each to the check that detects it.
+    """Judge every variant, or the first ``most`` variants, and map the key of each to the check that detects it.
 
-    Answers are kept in ``folder/variants.jsonl``.  Raises FileError if ``runs`` contains no deck, if the folder
-    contains answers for other listings, or if it cannot be written.
+    The answers are kept in ``folder/variants.jsonl``.  ``runs`` is a folder of decks for the check ``machine``, or
+    empty.  Raise FileError if ``runs`` contains no deck, if ``folder`` contains answers for other listings, or if it
+    cannot be written.
     """
     if runs and not any(Path(runs).glob("*/deck.cards")):
         raise FileError(f"{runs}: expected folders that contain a file deck.cards, found none")
@@ -303,7 +305,7 @@ def weigh(folder: Path, runs: str, workers: int = 1, most: int = 0) -> dict[str,
 
 
 def by_card(answers: Mapping[str, str]) -> Iterator[tuple[Variant, Counter[str]]]:
-    """Yield, for each card, one of its variants, and the number of its variants that each check detects."""
+    """Yield, for each card, one of its variants, and a count of its variants by the check that detects them."""
     cards: dict[tuple[str, int], tuple[Variant, Counter[str]]] = {}
     for variant in sorted(ordered(), key=lambda v: (v.program, v.card)):
         if variant.key in answers:

@@ -30,8 +30,7 @@ def test_lost_and_outside_points_of_theorems_are_those_of_the_print() -> None:
     assert point is not None
     assert point.at == (Fraction(-2, 135), Fraction(1, 9), Fraction(-1, 10))
     assert [p.number for p in theorem.planes if p.at(point) > 0] == [3, 4, 5, 6, 7, 8]
-    lines = build(TEXT, ("ocr",))
-    faults = theorem_faults(THEOREMS["4.8"], TEXT, lines)
+    faults = theorem_faults(THEOREMS["4.8"], replace(TEXT, default=("ocr",)))
     assert faults == (
         "theorem 4.8: line 88 does not print (-4, 4, 2)",
         "theorem 4.8: the table does not list Q6 for plane 2",

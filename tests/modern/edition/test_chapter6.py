@@ -2,7 +2,6 @@
 
 import shutil
 from collections.abc import Callable
-from importlib.resources import files
 from pathlib import Path
 
 import pytest
@@ -10,7 +9,7 @@ import pytest
 from emulator.language.cards import deck_from_text
 from emulator.language.compiler import compile_deck
 from emulator.language.objectcode import Program
-from modern.edition import programs
+from modern.edition import chapter6, programs
 from modern.edition.chapter6 import prints
 from modern.edition.reproduce import DIFFERENT, EXACT, ORDER, SPACING, Report, compare, reproduce, summary
 
@@ -57,48 +56,40 @@ def test_through_the_listing(reports: dict[tuple[int, str, int, str], Report], e
 # Every verdict can fail.
 
 
-def copied(tmp_path: Path) -> Path:
-    with_files = Path(str(files("transcripts").joinpath("chapter6")))
-    return Path(shutil.copytree(with_files, tmp_path / "chapter6"))
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return a copy of the folder of chapter 6, which replaces the committed folder."""
+    copy = Path(shutil.copytree(str(chapter6.chapter6_folder()), tmp_path / "chapter6"))
+    monkeypatch.setattr(chapter6, "chapter6_folder", lambda: copy)
+    return copy
 
 
 @pytest.mark.parametrize(("example", "program"), PRINTED)
-def test_one_changed_digit_of_a_print_changes_its_verdict(tmp_path: Path, example: int, program: int) -> None:
-    folder = copied(tmp_path)
+def test_one_changed_digit_of_a_print_changes_its_verdict(folder: Path, example: int, program: int) -> None:
     path = folder / f"example{example}" / f"program{program}.punch"
     text = path.read_text()
     at = max(i for i, c in enumerate(text) if c == "E" and text[i - 8 : i].isdigit()) - 8
     digit = str((int(text[at]) + 1) % 10)
     path.write_text(text[:at] + digit + text[at + 1 :])
-    verdicts = {(r.program, r.device): r.verdict for r in reproduce((example,), folder=folder) if r.state == "examples"}
+    verdicts = {(r.program, r.device): r.verdict for r in reproduce((example,)) if r.state == "examples"}
     assert verdicts[program, "punch"].kind == DIFFERENT
     assert len(verdicts[program, "punch"].differences) == 1
-    assert not summary(reproduce((example,), folder=folder))[0]
+    assert not summary(reproduce((example,)))[0]
 
 
-def test_a_lost_minus_of_a_zero_changes_the_verdict(tmp_path: Path) -> None:
-    folder = copied(tmp_path)
+def test_a_lost_minus_of_a_zero_changes_the_verdict(folder: Path) -> None:
     path = folder / "example6" / "program3.punch"
     assert "-.00000000E-99" in path.read_text()
     path.write_text(path.read_text().replace("-.00000000E-99", " .00000000E-99", 1))
-    kinds = {
-        r.program: r.verdict.kind
-        for r in reproduce((6,), folder=folder)
-        if r.state == "examples" and r.device == "punch"
-    }
+    kinds = {r.program: r.verdict.kind for r in reproduce((6,)) if r.state == "examples" and r.device == "punch"}
     assert kinds[3] == DIFFERENT
-    assert not summary(reproduce((6,), folder=folder))[0]
+    assert not summary(reproduce((6,)))[0]
 
 
-def test_a_changed_heading_changes_the_verdict(tmp_path: Path) -> None:
-    folder = copied(tmp_path)
+def test_a_changed_heading_changes_the_verdict(folder: Path) -> None:
     path = folder / "example4" / "program2.punch"
     path.write_text(path.read_text().replace("BOUNDARY POINTS", "BOUNDARY PAINTS"))
-    kinds = {
-        r.program: r.verdict.kind
-        for r in reproduce((4,), folder=folder)
-        if r.state == "examples" and r.device == "punch"
-    }
+    kinds = {r.program: r.verdict.kind for r in reproduce((4,)) if r.state == "examples" and r.device == "punch"}
     assert kinds[2] == DIFFERENT
 
 
