@@ -4,7 +4,6 @@ The hull's vertices are voxel centres or corners with integer coordinates. Volum
 is a sum of square roots, rounded to ``AREA_DIGITS`` significant digits.
 """
 
-import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
@@ -12,9 +11,8 @@ from fractions import Fraction
 
 from modern.digital.world import Position, VolumeError, World, voxel_volume
 from modern.geometry.numbers import AREA_DIGITS, sum_of_roots
-from modern.geometry.vectors import area_vector, cross, six_volumes
+from modern.geometry.vectors import Vector, area_vector, dot, six_volumes, whole
 
-_UNIT: tuple[Position, ...] = tuple(tuple(Fraction(int(k == axis)) for k in range(3)) for axis in range(3))
 Whole = tuple[int, int, int]
 
 
@@ -57,22 +55,14 @@ def measures(
     voxels, with three steps in a space with three axes.
     """
     polygons = [tuple(face) for face in faces]
-    six = six_volumes(points, polygons) if len(polygons) > 1 else 0
-    steps = _UNIT if world is None else world.steps
-    cell = voxel_volume(world)
-    # A linear map multiplies area vectors by its cofactor matrix, whose rows are vector products of the steps.
-    rows = [cross(_three(steps[(k + 1) % 3]), _three(steps[(k + 2) % 3])) for k in range(3)]
-    scale = math.lcm(*(number.denominator for row in rows for number in row))
-    cofactors = [[int(number * scale) for number in row] for row in rows]
-    squares = []
-    for face in polygons:
-        normal = area_vector(points, face)
-        image = [sum(normal[k] * cofactors[k][j] for k in range(3)) for j in range(3)]
-        squares.append(Fraction(sum(number * number for number in image), (2 * scale) ** 2))
-    area = sum_of_roots(squares, AREA_DIGITS)
-    return Measures(voxels, voxels * cell, Fraction(abs(six), 6) * cell, area)
+    # Exact physical positions, multiplied by a common scale to make them integers.
+    scale, places = (1, points) if world is None else whole([_three(world.place(point)) for point in points])
+    six = six_volumes(places, polygons) if len(polygons) > 1 else 0
+    normals = [area_vector(places, face) for face in polygons]
+    area = sum_of_roots([Fraction(dot(normal, normal), 4 * scale**4) for normal in normals], AREA_DIGITS)
+    return Measures(voxels, voxels * voxel_volume(world), Fraction(abs(six), 6 * scale**3), area)
 
 
-def _three(step: Sequence[Fraction]) -> tuple[Fraction, Fraction, Fraction]:
-    x, y, z = step
+def _three(place: Position) -> Vector:
+    x, y, z = place
     return x, y, z

@@ -51,7 +51,9 @@ _OTHER_NAMES = {
     "axismaxs": "axis maxs",
 }
 _SPACES = {"lps": ANATOMICAL[0], "ras": ANATOMICAL[1], "las": ANATOMICAL[2]}
-_VECTOR = re.compile(r"\(([^()]*)\)|(none)(?!\S)")
+_VECTOR = re.compile(r"\(([^()]*)\)")
+# What stands for the step of an axis that is not spatial, or for a component of the step.
+_NOT_SPATIAL = re.compile(r"\b(none|nan)\b", re.IGNORECASE)
 _QUOTED = re.compile(r'"((?:[^"\\]|\\.)*)"')
 _IGNORED = ("axis mins", "axis maxs")
 _MOST_AXES = 3
@@ -64,7 +66,8 @@ def parse_nrrd(data: bytes, source: str) -> Scan:
     VolumeError for an invalid or missing field, and for data that are too short, too long or damaged. Raise FileError
     if the data file cannot be read.
     """
-    head, body = _split(data)
+    head, *rest = re.split(rb"\n\n|\r\n\r\n", data, maxsplit=1)
+    body = rest[0] if rest else b""
     fields = _fields(head, source)
     dimension = _number(fields, "dimension", source)
     if dimension not in (2, 3):
@@ -123,15 +126,6 @@ def write_nrrd(path: str, array: NDArray[np.bool_], volume: Volume) -> None:
         with gzip.GzipFile(filename="", mode="wb", compresslevel=6, fileobj=file, mtime=0) as packed:
             for place in range(array.shape[-1]):
                 packed.write(array[..., place].astype(np.uint8).tobytes("F"))
-
-
-def _split(data: bytes) -> tuple[bytes, bytes]:
-    ends = [(data.find(mark), len(mark)) for mark in (b"\n\n", b"\r\n\r\n")]
-    separators = [(at, length) for at, length in ends if at >= 0]
-    if not separators:
-        return data, b""
-    at, length = min(separators)
-    return data[:at], data[at + length :]
 
 
 def _fields(head: bytes, source: str) -> dict[str, tuple[int, str]]:
@@ -229,27 +223,22 @@ def _steps(
 
     The line number is 0 if there is no such line. The steps are None if an axis of the array is not spatial.
     """
+    spacing_line, spacings = fields.get("spacings", (0, ""))
+    words = spacings.lower().split()
     if "space directions" not in fields:
-        if "spacings" not in fields:
-            return 0, None
-        line, text = fields["spacings"]
-        lengths = _lengths(text.split(), dimension, f"{source}: line {line}: spacings")
-        if any(number is None for number in lengths):
-            return line, None
+        if not spacing_line or "nan" in words:
+            return spacing_line, None
+        numbers = _numbers(words, dimension, f"{source}: line {spacing_line}: spacings")
         zero = Fraction(0)
-        return line, tuple(
-            tuple((number or zero) if k == axis else zero for k in range(dimension))
-            for axis, number in enumerate(lengths)
+        return spacing_line, tuple(
+            tuple(number if k == axis else zero for k in range(dimension)) for axis, number in enumerate(numbers)
         )
+    if any(word != "nan" for word in words):
+        raise VolumeError(f"{source}: line {spacing_line}: spacings and space directions state different steps")
     line, text = fields["space directions"]
-    if any(word.lower() != "nan" for word in fields.get("spacings", (0, ""))[1].split()):
-        raise VolumeError(
-            f"{source}: line {fields['spacings'][0]}: spacings and space directions state different steps"
-        )
-    vectors = _vectors(text, dimension, f"{source}: line {line}: space directions")
-    if any(vector is None or None in vector for vector in vectors):
+    if _NOT_SPATIAL.search(text):
         return line, None
-    return line, tuple(tuple(number for number in vector or () if number is not None) for vector in vectors)
+    return line, _vectors(text, dimension, f"{source}: line {line}: space directions")
 
 
 def _origin(fields: Mapping[str, tuple[int, str]], width: int, source: str) -> Position:
@@ -258,27 +247,25 @@ def _origin(fields: Mapping[str, tuple[int, str]], width: int, source: str) -> P
     line, text = fields["space origin"]
     what = f"{source}: line {line}: space origin"
     (vector,) = _vectors(text, 1, what)
-    if vector is None or None in vector or len(vector) != width:
+    if len(vector) != width:
         raise VolumeError(f"{what}: expected {width} numbers in parentheses, found {quoted(text)}")
-    return tuple(number for number in vector if number is not None)
+    return vector
 
 
-def _vectors(text: str, count: int, what: str) -> list[list[Fraction | None] | None]:
-    """Read ``count`` vectors of equal length, such as ``(1,0,0)``. The word ``none`` becomes None."""
-    matches = list(_VECTOR.finditer(text))
-    if len(matches) != count or _VECTOR.sub("", text).strip():
-        raise VolumeError(f"{what}: expected {count} vectors such as (1,0,0), found {quoted(text)}")
-    inner = [None if match[2] else match[1].split(",") for match in matches]
-    width = len(next((components for components in inner if components is not None), ()))
-    return [None if components is None else _lengths(components, width, what) for components in inner]
+def _vectors(text: str, count: int, what: str) -> tuple[Position, ...]:
+    """Read ``count`` vectors with the same number of components, such as ``(1,0,0)``."""
+    vectors = [match.split(",") for match in _VECTOR.findall(text)]
+    if len(vectors) != count or _VECTOR.sub("", text).strip():
+        expected = "a vector" if count == 1 else f"{count} vectors"
+        raise VolumeError(f"{what}: expected {expected} such as (1,0,0), found {quoted(text)}")
+    return tuple(_numbers(components, len(vectors[0]), what) for components in vectors)
 
 
-def _lengths(texts: Sequence[str], count: int, what: str) -> list[Fraction | None]:
-    """Read ``count`` numbers of a header. The word ``nan`` becomes None."""
+def _numbers(texts: Sequence[str], count: int, what: str) -> Position:
     if len(texts) != count:
         raise VolumeError(f"{what}: expected {count} numbers, found {len(texts)}")
     try:
-        return [None if text.strip().lower() == "nan" else length_text(text) for text in texts]
+        return tuple(length_text(text) for text in texts)
     except ValueError as error:
         raise VolumeError(f"{what}: {error}") from None
 

@@ -8,7 +8,7 @@ order of the file.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 
@@ -79,7 +79,7 @@ def read_bodies(data: bytes, name: str, reading: Reading) -> Bodies:
     joined = None if reading.within is None or hull.dimension < 3 else _joined(hull, reading.within, name)
     if reading.within is not None:
         notes.append(f"{name}: {FLAT if joined is None else join_summary(joined)}")
-    return Bodies((_of_hull(hull, name, joined),), tuple(notes))
+    return Bodies((polyhedron_of_hull(hull, name, joined),), tuple(notes))
 
 
 def bodies(surface: FileMesh, reading: Reading, name: str) -> Bodies:
@@ -141,18 +141,23 @@ def _body(surface: FileMesh, component: _Component, reading: Reading) -> tuple[P
     # The exact hull of the component's vertices either replaces the component or proves that it is convex.
     hull = _hull([*points.values()])
     if hull.dimension < 3:
-        return _of_hull(hull, name, None) if reading.hull else checked(_as_given(_closed(surface, component))), []
+        return polyhedron_of_hull(hull, name, None) if reading.hull else checked(
+            _as_given(_closed(surface, component))
+        ), []
     joined = None if reading.within is None else _joined(hull, reading.within, name)
     changes = [] if joined is None else [join_summary(joined)]
     if fault:
-        return _of_hull(hull, name, joined), ["not closed, replaced by its hull", *changes]
+        return polyhedron_of_hull(hull, name, joined), ["not closed, replaced by its hull", *changes]
     closed = _closed(surface, component)
     dents = list(_dents(closed))
     if reading.hull:
-        return _of_hull(hull, name, joined), [*(["not convex, replaced by its hull"] if dents else []), *changes]
+        return polyhedron_of_hull(hull, name, joined), [
+            *(["not convex, replaced by its hull"] if dents else []),
+            *changes,
+        ]
     far = None if joined is None else _far(closed, hull, joined)
     if joined is not None and far is None:
-        return _of_hull(hull, name, joined), changes
+        return polyhedron_of_hull(hull, name, joined), changes
     if dents:
         raise SceneError(f"{name}: {_advice(surface, max(dents, key=lambda dent: (dent[0], -dent[1])), reading)}")
     if far is not None:
@@ -294,10 +299,17 @@ def _far(closed: _Closed, hull: Hull, joined: Joined) -> int | None:
     return None
 
 
-def _of_hull(hull: Hull, name: str, joined: Joined | None) -> Polyhedron:
-    """Convert an exact hull, which is proved to be convex, to a polyhedron of a scene."""
-    if hull.dimension < 3:
-        return replace(solids.polyhedron_of_hull(hull, name), name=name)
+def polyhedron_of_hull(hull: Hull, name: str, joined: Joined | None = None) -> Polyhedron:
+    """Return an exact hull, which is proved to be convex, as a polyhedron of a scene, or a polygon as a plate.
+
+    ``joined`` tells which faces are drawn as one face. Raise SceneError for a point or a segment.
+    """
     surface = mesh(hull)
+    if surface.dimension < 2:
+        raise SceneError(
+            f"{name}: a {('point', 'segment')[surface.dimension]} is not a polyhedron; expected points not on one line"
+        )
     faces = tuple(face[::-1] for face in surface.faces)
+    if surface.dimension == 2:
+        faces = (faces[0], surface.faces[0])
     return Polyhedron(name, surface.numbers(), faces, joined=() if joined is None else joined.group_of())

@@ -7,11 +7,9 @@ files with faces (``bodies``) and from hulls.
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from pathlib import PurePath
 
 from emulator.errors import EmulatorError
-from modern.geometry.hull import Hull
-from modern.geometry.mesh import mesh, sides
+from modern.geometry.mesh import sides
 from modern.geometry.vectors import N, Vector, area_vector, cross, dot, lowest, minus, six_volumes, whole
 
 
@@ -134,19 +132,3 @@ def turns_once(points: Sequence[tuple[N, N, N]], normal: tuple[N, N, N]) -> bool
         return False
     # A polygon that turns left at all corners may run around twice. Then a corner is to the right of a side.
     return all(dot(cross(steps[a], minus(q, corners[a])), up) >= 0 for a, _ in lines for q in corners)
-
-
-def polyhedron_of_hull(hull: Hull, name: str = "hull") -> Polyhedron:
-    """Convert a hull to a polyhedron of a scene, or a polygon to a plate.
-
-    Raise ExportError without a hull, and SceneError for a hull that is a line or not convex.
-    """
-    surface = mesh(hull)
-    if surface.dimension < 2:
-        raise SceneError(
-            f"{name}: a {('point', 'segment')[surface.dimension]} is not a polyhedron; expected points not on one line"
-        )
-    faces = tuple(face[::-1] for face in surface.faces)
-    if surface.dimension == 2:
-        faces = (faces[0], surface.faces[0])
-    return checked(Polyhedron(PurePath(name).name, surface.numbers(), faces))

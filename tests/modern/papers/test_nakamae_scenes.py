@@ -10,9 +10,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from modern.geometry.vectors import Vector, plus
+from modern.papers.nakamae_nishita.bodies import polyhedron_of_hull
 from modern.papers.nakamae_nishita.hidden import Drawing, draw
 from modern.papers.nakamae_nishita.picture import DASHED, PLOT_HEIGHT, PLOT_WIDTH, SOLID, as_hpgl, as_svg, ends, plot
-from modern.papers.nakamae_nishita.polyhedron import SceneError, checked, polyhedron_of_hull
+from modern.papers.nakamae_nishita.polyhedron import SceneError, checked
 from modern.papers.nakamae_nishita.projection import image, parallel
 from modern.papers.nakamae_nishita.scenes import names, parse, scene
 from modern.papers.nakamae_nishita.shapes import column, cuboid, parallelepiped, plate, rotation, round_base
@@ -92,12 +93,12 @@ def test_invalid_shapes_are_rejected() -> None:
 
 def test_a_hull_of_two_or_three_dimensions_is_a_polyhedron() -> None:
     hull = convex_hull([(0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4), (1, 1, 1), (3, 3, 3)])
-    polyhedron = polyhedron_of_hull(hull)
+    polyhedron = polyhedron_of_hull(hull, "hull")
     assert {tuple(map(str, map(int, v))) for v in polyhedron.vertices} == {hull.points[k] for k in hull.vertices}
-    flat = polyhedron_of_hull(convex_hull([(0, 0, 0), (4, 0, 0), (0, 4, 0)]))
+    flat = polyhedron_of_hull(convex_hull([(0, 0, 0), (4, 0, 0), (0, 4, 0)]), "flat")
     assert len(flat.faces) == 2
     with pytest.raises(SceneError, match="a segment is not a polyhedron; expected points not on one line"):
-        polyhedron_of_hull(convex_hull([(0, 0, 0), (4, 0, 0)]))
+        polyhedron_of_hull(convex_hull([(0, 0, 0), (4, 0, 0)]), "flat")
 
 
 # --- scene files
