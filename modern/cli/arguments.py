@@ -28,8 +28,8 @@ from modern.cli.shared.console import Folder, InputFile, OutputFile
 
 def _reproduce(parser: ArgumentParser) -> None:
     names = (
-        "an example 1 to 6, a theorem such as 4.1, a document (thesis, yau-srihari, ...) or the id of a statement "
-        "(default: everything)"
+        "the number of an example (1 to 6), a theorem such as 4.1, a document (thesis, yau-srihari, ...) or the id of "
+        "a statement (default: everything)"
     )
     add(parser, {"examples NAME": names}, nargs="*")
     add(parser, {"--show": "show each printed result next to the computed one"})
@@ -61,8 +61,8 @@ def _diverge(parser: ArgumentParser) -> None:
     program_argument(parser, "run")
     deck_argument(
         parser,
-        "a file of data cards; for program2 and program3, of the cards that program 1 punched (may be omitted if the "
-        "program reads no cards)",
+        "a file of data cards, or for program2 and program3 a file of the cards that program 1 punched (may be omitted "
+        "if the program reads no cards)",
     )
     against = (
         "compare --arithmetic with this arithmetic, and ignore differences that its rounding may explain "
@@ -86,12 +86,12 @@ def _digits(parser: ArgumentParser) -> None:
         "--independent": "estimate the printed numbers from runs that each follow their own branches",
     }
     add(parser, modes)
-    for option, contents in (
-        ("--csv FILE", "write the tables to FILE as CSV"),
-        ("--html FILE", "write the report to FILE as a page"),
-        ("--samples FILE", "write the printed numbers of every run to FILE as a NumPy array, one row for each run"),
-    ):
-        add(parser, {option: contents}, type=OutputFile)
+    outputs = {
+        "--csv FILE": "write the tables to FILE as CSV",
+        "--html FILE": "write the report to FILE as a page",
+        "--samples FILE": "write the printed numbers of every run to FILE as a NumPy array, one row for each run",
+    }
+    add(parser, outputs, type=OutputFile)
     compared_machine(parser)
 
 
@@ -103,7 +103,8 @@ def _listing(parser: ArgumentParser) -> None:
         "(default: %(default)s)"
     )
     add(parser, {"--against NAME": against}, default="exact")
-    add(parser, {"--digits": "add the fewest digits that the values of ten stochastic runs have in common"})
+    digits = "add the least number of digits that the values of each statement have in common in ten stochastic runs"
+    add(parser, {"--digits": digits})
     add(parser, {"--operator =FILE": "answer ACCEPT and PAUSE from FILE, or from a log of --log"}, type=InputFile)
     add(parser, {"--commentary": "explain the blocks of statements and the variables of a program of the thesis"})
     output_argument(parser)
@@ -145,7 +146,7 @@ def _apparatus(parser: ArgumentParser) -> None:
     add(parser, rows)
     text = "with --check: compare the project's excerpts with FILE, a whole OCR text"
     add(parser, {"--text FILE": text}, type=InputFile)
-    collate = "classify every reading of the listings by FILE, another transcription of them or of a part of them"
+    collate = "compare every reading of the listings with FILE, another transcription of the listings or of a part"
     add(parser, {"--collate FILE": collate}, type=InputFile)
     json_argument(parser, "collation")
     add(parser, {"--csv FILE": "with --collate: write a table with a row for each reading"}, type=OutputFile)
@@ -216,7 +217,7 @@ def _translate(parser: ArgumentParser) -> None:
 
 def _check(parser: ArgumentParser) -> None:
     program_argument(parser, "check", "?")
-    add(parser, {"--explain N": "explain an error number, such as 5 or E3, or all error numbers (all)"})
+    add(parser, {"--explain N": "explain an error number, such as 5 or E3; the word all explains every error number"})
     core_argument(parser)
     layers_argument(parser)
     upcase_argument(parser)
@@ -227,7 +228,7 @@ def _flowchart(parser: ArgumentParser) -> None:
     output_argument(parser, "FILE.svg")
     which = parser.add_mutually_exclusive_group()
     add(which, {"--page N": "draw page N only (default: all pages in one picture)"}, type=int)
-    add(which, {"--table": "write a text table of the paths from box to box"})
+    add(which, {"--table": "write a text table of the paths between boxes instead of a picture"})
     parser.set_defaults(endings=(".svg",))
 
 

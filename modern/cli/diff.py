@@ -49,7 +49,7 @@ class Route:
 
     @property
     def agrees(self) -> bool:
-        """True if the route agrees with the exact hull or could not be run."""
+        """Return True if the route agrees with the exact hull or could not be run."""
         return bool(self.obstacle) or (self.difference is not None and self.difference.agrees)
 
 

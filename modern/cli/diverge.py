@@ -6,7 +6,6 @@ import textwrap
 from collections.abc import Iterator
 
 from emulator.language.objectcode import Line
-from emulator.machine.comparison import Loss
 from emulator.machine.devices import no_deck
 from emulator.machine.divergence import Divergence, diverge
 from modern.cli.shared.console import DIFFERS, OK, check_one_standard_input, counted, print_report, write_json
@@ -91,8 +90,12 @@ def _differ(count: int) -> str:
     return "differs" if count == 1 else "differ"
 
 
+def _text(line: Line) -> str:
+    return f"{line.label} {line.text}" if line.label else line.text
+
+
 def _place(line: Line) -> str:
-    return f"card {line.place.card}, {f'{line.label} ' if line.label else ''}{line.text}"
+    return f"card {line.place.card}, {_text(line)}"
 
 
 def _execution(number: int) -> str:
@@ -112,17 +115,12 @@ def _table(divergence: Divergence, width: int) -> Iterator[str]:
     if losing:
         yield "worst median count differ card statement"
     for loss in losing:
-        yield _row(loss)[:width].rstrip()
+        figures = f"{loss.worst:5.1f} {loss.median:6.1f} {loss.times:5d} {loss.differing:6d}"
+        yield f"{figures} {loss.line.place.card:4d} {_text(loss.line)}"[:width].rstrip()
     others = len(divergence.losses) - len(losing)
     if others:
         statements = counted(others, "other statement" if losing else "statement")
         yield from _wrapped(f"{statements} lost less than a tenth of a digit", width)
-
-
-def _row(loss: Loss) -> str:
-    line = loss.line
-    statement = f"{line.label} {line.text}" if line.label else line.text
-    return f"{loss.worst:5.1f} {loss.median:6.1f} {loss.times:5d} {loss.differing:6d} {line.place.card:4d} {statement}"
 
 
 def _document(divergence: Divergence) -> dict[str, object]:

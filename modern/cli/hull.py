@@ -39,7 +39,7 @@ def main(args: argparse.Namespace) -> int:
                 tracer.watch(program, machine)
 
         def output(events: Sequence[Event]) -> None:
-            for event in events if attendance.show else ():
+            for event in events:
                 if event.what == "type" and attendance.show:
                     attendance.show(event.text)
 

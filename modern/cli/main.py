@@ -40,7 +40,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if sys.stdout is not None:
             sys.stdout.flush()
     except BrokenPipeError:
-        # The reader of the pipe has closed it, as head does.
+        # The program that reads the pipe has closed it, as head does.
         code = OK
     except KeyboardInterrupt:
         print_error("interrupted")

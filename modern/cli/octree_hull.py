@@ -57,7 +57,7 @@ def _in_space(volume: Volume) -> Volume:
 
 
 def _printed(args: argparse.Namespace) -> Printed:
-    """Return which statements of the paper are applied as printed, by the options. Raise UsageError."""
+    """Return which statements of the paper the options apply as printed. Raise UsageError."""
     if args.literal:
         return LITERAL
     try:

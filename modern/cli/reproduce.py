@@ -40,6 +40,8 @@ _PAINT_KINDS = {EXACT: EXACT, CORRECTED: EXACT, EXPLAINED: ORDER, CANNOT: "", DI
 _MOST_LINES = 4
 # The first words of the last line: if all results agree, and if one does not.
 _OVERALL = ("Every", "NOT every")
+# The function side_by_side with the width and the colours of the output.
+Compare = Callable[..., Iterator[str]]
 
 
 def main(args: argparse.Namespace) -> int:
@@ -51,10 +53,11 @@ def main(args: argparse.Namespace) -> int:
     reports: list[Report] = []
     width = shutil.get_terminal_size((100, 24)).columns
     paint, indented = partial(_paint, colour=colour), partial(_indented, width=width)
+    compare = partial(side_by_side, width=width, paint=partial(_paint, kind=DIFFERENT, colour=colour))
     for example in examples:
         new_reports = list(reproduce((example,)))
         reports.extend(new_reports)
-        for line in _example_lines(example, new_reports, colour, width, args.show):
+        for line in _example_lines(example, new_reports, paint, indented, compare, args.show):
             print(line, file=out)
     results = Judgements(reports)
     parts = {name for name in THEOREMS if name in names}
@@ -65,13 +68,12 @@ def main(args: argparse.Namespace) -> int:
         theorems = [judge(row, results) for row in statements_of(THESIS) if row.part in parts] if parts else []
     for line in theorem_lines(theorems, paint, indented):
         print(line, file=out)
-    compare = partial(_side_by_side, colour=colour, width=width) if args.show else None
     findings_of_papers: list[Finding] = []
     for paper in (paper for paper in PAPERS if paper.name in names):
         with skipping(paper.name):
             paper_findings = list(findings(paper))
             findings_of_papers += paper_findings
-            for line in _finding_lines(paper, paper_findings, paint, indented, compare):
+            for line in _finding_lines(paper, paper_findings, paint, indented, compare, args.show):
                 print(line, file=out)
     results.add_findings(findings_of_papers)
     known = {judged.statement.id: judged for judged in theorems}
@@ -87,7 +89,7 @@ def main(args: argparse.Namespace) -> int:
     for line in _summary_lines(reports, theorems, findings_of_papers, all_agree, left_out):
         kind = (EXACT if all_agree else DIFFERENT) if line.startswith(_OVERALL) else ""
         for part in textwrap.wrap(line, max(40, width)):
-            print(_paint(part, kind, colour), file=out)
+            print(paint(part, kind), file=out)
     write_json(args, {**_document(reports, theorems, stated, findings_of_papers, all_agree), "left_out": left_out})
     return OK if all_agree else DIFFERS
 
@@ -132,7 +134,7 @@ def _statements(names: Sequence[str]) -> list[Statement]:
 
 
 def _example_lines(
-    example: int, reports: Iterable[Report], colour: bool, width: int, show: bool = False
+    example: int, reports: Iterable[Report], paint: Paint, indented: Indented, compare: Compare, show: bool
 ) -> Iterator[str]:
     yield f"Example {example}"
     state = ""
@@ -143,19 +145,18 @@ def _example_lines(
             yield f"  program 1 {_STATES[state]}"
         verdict = report.verdict
         name = f"program {report.program} {'cards' if report.device == 'punch' else 'typed'}"
-        yield f"    {name:<16} {_paint(verdict.kind, verdict.kind, colour)}"
-        yield from _indented(_evidence(report), width)
+        yield f"    {name:<16} {paint(verdict.kind, verdict.kind)}"
+        yield from indented(_evidence(report))
         if verdict.kind == ORDER:
             reason = "order: as above" if is_explained else _REASON_FOR_ORDER
-            yield from _indented(f"{_same(verdict)}; {reason}", width)
+            yield from indented(f"{_same(verdict)}; {reason}")
             is_explained = True
         ending = _ending(report)
         if ending:
-            yield from _indented(ending, width)
+            yield from indented(ending)
         if show or verdict.kind in (DIFFERENT, SPACING):
-            paint = partial(_paint, kind=DIFFERENT, colour=colour)
             heads = ("stated" if report.stated else "print", "result")
-            yield from side_by_side(report.printed, report.produced, width, heads=heads, paint=paint)
+            yield from compare(report.printed, report.produced, heads=heads)
     yield ""
 
 
@@ -285,24 +286,17 @@ def _document(
     }
 
 
-def _side_by_side(finding: Finding, colour: bool, width: int) -> Iterator[str]:
-    paint, heads = partial(_paint, kind=DIFFERENT, colour=colour), ("print", "computed")
-    printed, produced = finding.result.printed, finding.produced
-    if produced:
-        yield from side_by_side(printed, produced, width, heads=heads, columns=False, paint=paint)
-
-
 def _finding_lines(
     paper: Paper,
     paper_findings: Sequence[Finding],
     paint: Paint,
     indented: Indented,
-    compare: Callable[[Finding], Iterable[str]] | None = None,
+    compare: Compare,
+    show: bool,
 ) -> Iterator[str]:
     """Yield the verdicts on a paper's results.
 
-    compare: a function that shows a printed result next to the computed one.  Without it, only lines that differ are
-    shown.
+    show: show each printed result next to the computed one; otherwise show only lines that differ.
     """
     yield paper.title
     for finding in paper_findings:
@@ -314,9 +308,9 @@ def _finding_lines(
         if finding.kind == CORRECTED:
             rows = ", ".join(f"{row.id} ({row.kind})" for row in result.rows)
             yield from indented(f"the printed result was corrected by {rows}")
-        if compare is not None:
-            yield from compare(finding)
-        elif finding.kind in (EXPLAINED, DIFFERENT):
+        if show and finding.produced:
+            yield from compare(result.printed, finding.produced, heads=("print", "computed"), columns=False)
+        elif not show and finding.kind in (EXPLAINED, DIFFERENT):
             yield from _finding_differences(finding, indented)
     yield ""
 

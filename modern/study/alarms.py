@@ -194,7 +194,7 @@ def _judged(tally: _Tally, test: Test, known: Mapping[str, Any], has_e: bool) ->
     low, high = known["interval"]
     reached = {target(bound) for bound in (low, high)} | ({target(0)} if low <= 0 <= high else set())
     votes = Counter(map(target, known["samples"]))
-    # The target that a method would take, or None if it does not know, and whether it raises an alarm.
+    # For each method: the target that it would take, or None if it cannot decide, and whether it raises an alarm.
     decisions: dict[str, tuple[int | None, bool]] = {
         "double": (target(known["double"]), target(known["double"]) != test.taken),
         "interval": (min(reached) if len(reached) == 1 else None, reached != {test.taken}),

@@ -1,26 +1,8 @@
-"""The outcome of a sample on a route: exactly one of eleven, with a detail (a location or the kind of fault).
+"""Find the outcome of a sample on a route: exactly one of eleven, with a detail (a location or the kind of fault).
 
-=====================  ============================================================================================
-outcome                meaning (detail, in parentheses)
-=====================  ============================================================================================
-right                  the vertices, boundary and inside points of the exact hull, and each of its planes once
-reordered              right, but vertices or planes are in a different order from that of the reference route
-doubled plane          right, but a plane occurs more than once
-DATA NOT ACCEPTABLE    the program typed this message (program and statement)
-ERROR IN PROGRAM       the program typed this message (program and the statement that decided it)
-endless                the run reached the statement limit (program and the statements of the loop)
-table full             program 3 used an element beyond the end of its plane table (the element)
-out of bounds          a program used another subscript out of bounds (the element)
-undefined value        a program used or printed an undefined value (program and statement)
-wrong hull             the first fault that applies: dimension wrong, coordinates changed, vertex missed, vertex
-                       too many, plane missed, plane too many, point misfiled, equations wrong, vertices of a plane
-                       wrong
-stopped otherwise      any other ending (its kind, program and statement), or a number outside the arithmetic's range
-=====================  ============================================================================================
-
-For collinear points the programs punch only the ends of the segment, and for three points or fewer no inside points.
-Two equations describe the same plane if their coefficients agree within :data:`modern.comparison.difference.NEAR`; the
-error of the coefficients is recorded as a figure.
+docs/explanation/studies.md describes the outcomes.  For collinear points the programs punch only the ends of the
+segment, and for three points or fewer no inside points.  Two equations describe the same plane if their coefficients
+agree within :data:`modern.comparison.difference.NEAR`; the error of the coefficients is recorded as a figure.
 """
 
 from collections.abc import Mapping
@@ -52,7 +34,7 @@ Outcome = Literal[
     "wrong hull",
     "stopped otherwise",
 ]
-# The possible details of the outcome "wrong hull".
+# The details of the outcome "wrong hull".  If a hull has several faults, the detail is the first in this order.
 Fault = Literal[
     "dimension wrong",
     "coordinates changed",
@@ -192,7 +174,7 @@ def _determined(outcome: compared.Outcome, sample: Sample, hull: CardHull | Hull
 
 
 def _fault(outcome: compared.Outcome, sample: Sample, difference: Disagreement, hull: CardHull | Hull) -> Fault | None:
-    """Return the first fault of a hull, in the order of the table at the top of this module, or None."""
+    """Return the first fault of a hull in the order of ``Fault``, or None."""
     faults: tuple[tuple[object, Fault], ...] = (
         (outcome.dimension != sample.hull.dimension, "dimension wrong"),
         (outcome.strange, "coordinates changed"),

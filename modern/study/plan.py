@@ -50,9 +50,7 @@ class Programs:
 
     name: the name in tables.  state: the version of program 1, ``listing`` or ``examples``.  layers: the layers of
     the apparatus (the register of corrections to the printed listings) that are added to the three programs.  rows:
-    single rows of the apparatus, added without the rest of their layer.  arithmetic: the emulator's arithmetic,
-    ``truncating``, ``ibm1962``, ``truncating1962``, ``truncating:P``, ``guarded:P``, ``rounding:P``, ``float64``,
-    ``float32``, ``mp:BITS``, ``exact``, ``stochastic:P:SEED`` or ``stochastic:BITSb:SEED``
+    single rows of the apparatus, added without the rest of their layer.  arithmetic: the name of an arithmetic
     (:func:`emulator.numbers.numbers`).  epsilon: the e of chapter 7, punched on the first card; it requires the layer
     ``epsilon``.  limit: the number of statements after which a run counts as endless.  core, bounds: as in
     :class:`emulator.machine.result.Options`.  uncut: keep all digits of the numbers that pass from one program to the

@@ -9,6 +9,7 @@ import io
 import textwrap
 from collections.abc import Sequence
 from importlib.resources import as_file, files
+from importlib.util import find_spec
 from math import ceil, isfinite
 from pathlib import Path
 from typing import Any
@@ -34,7 +35,7 @@ DARK = {
 }
 MARKERS = ("o", "s", "^", "D", "v", "X")
 LINES = ("-", "--", "-.", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 1.5)), (0, (8, 2)))
-# The colours of bars, those of cards and readings, light enough to show the error bars on them.
+# The colours of bars, which the site uses for cards and readings too.  They are light enough to show error bars on them.
 FILLS = ("#b9a982", "#f7d8cd", "#fdfcf8", "#dbe7c8", "#e4dcf0", "#d9cba8")
 HATCHES = ("", "", "", "///", "...", "xxx")
 _PALE = "#cbc3b2"
@@ -46,9 +47,9 @@ _ROW = 0.17
 _NOTE = 0.22
 # If the names below bars must be wrapped, their lines have at most this number of characters.
 _WRAPPED = 14
-# The labels of series: characters in a line, and the height of a line as a share of the axes.
+# For the labels of series: the most characters in a line, and the height of a line as a share of that of the axes.
 _LABEL, _LINE_HEIGHT = 20, 0.052
-# The width of a letter as a share of the height of the axes, for upright names of series.
+# For upright names of series: the width of a letter as a share of the height of the axes.
 _LETTER = 0.021
 _STYLE: Any = {
     "font.family": ["IBM Plex Sans", "DejaVu Sans"],
@@ -70,24 +71,19 @@ _STYLE: Any = {
     "figure.dpi": 100,
     "savefig.dpi": 160,
 }
-_NO_MATPLOTLIB = "plots need matplotlib: pip install 'hull1620[plot]'"
 
 
 def can_plot() -> str:
     """Return an empty text if plots can be drawn, otherwise a line that says which package is missing."""
-    try:
-        import matplotlib  # noqa: F401
-    except ImportError:
-        return _NO_MATPLOTLIB
-    return ""
+    return "" if find_spec("matplotlib") else "plots need matplotlib: pip install 'hull1620[plot]'"
 
 
 def draw(chart: Chart, folder: Path, kinds: Sequence[str] = ("svg", "png")) -> None:
     """Write ``NAME.svg`` and ``NAME.png``.  Raise StudyFileError if that fails, PlanError without matplotlib."""
-    try:
-        import matplotlib
-    except ImportError:
-        raise PlanError(_NO_MATPLOTLIB) from None
+    if problem := can_plot():
+        raise PlanError(problem)
+    import matplotlib
+
     with matplotlib.rc_context(_STYLE):
         figure = drawn(chart)
         for kind in kinds:

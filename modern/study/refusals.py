@@ -139,18 +139,23 @@ def conclusions(sheets: tuple[Sheets, ...]) -> tuple[str, ...]:
         of_form = [s for s in sheets if s.form == form or not s.share]
         shares = likely_shares(tuple((s.share, s.rate.value) for s in of_form))
         printed = of_form[-1]
-        paragraphs.append(
+        text = (
             f"For decimals {drawn}: if a third of the coordinates are decimals, as on the data sheet, the programs "
             f"reject {percent(printed.rate)} of the sets."
-            + f" Two rejections in seventy sets are the most probable number if {needed(printed)} of the seventy sets "
-            "are like this data sheet"
-            * bool(printed.refused)
-            + (
-                ", or if the share of decimals in all seventy sets is from "
-                f"{shares[0] / 10:.2f} to {shares[1] / 10:.2f} %."
-                if shares
-                else "." * bool(printed.refused) + " The share of decimals in all seventy sets that would make two "
-                "rejections most probable cannot be determined."
-            )
         )
+        if printed.refused:
+            text += (
+                f" Two rejections in seventy sets are the most probable number if {needed(printed)} of the seventy "
+                "sets are like this data sheet"
+            )
+            if shares is not None:
+                low, high = (f"{share / 10:.2f}" for share in shares)
+                text += f", or if the share of decimals in all seventy sets is from {low} to {high} %"
+            text += "."
+        if shares is None:
+            text += (
+                " The share of decimals in all seventy sets that would make two rejections most probable cannot be "
+                "determined."
+            )
+        paragraphs.append(text)
     return tuple(paragraphs)

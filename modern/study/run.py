@@ -254,7 +254,7 @@ def check_cell(cell: Cell, seed: int) -> None:
 
 
 def check_route(route: Route) -> None:
-    """Check a route.  Raise PlanError."""
+    """Raise PlanError if a route has an unknown measure or a wrong value, or if its programs do not fit in core."""
     if not route.name:
         raise PlanError("expected a name for every route; one has none")
     for name in route.measures:

@@ -41,7 +41,7 @@ class Sample:
         }
 
     def points_read(self, rules: Rules) -> Sequence[Vector]:
-        """Return the points as an arithmetic reads them from cards, truncated if the arithmetic has fewer digits."""
+        """Return the points as an arithmetic reads them from the cards, truncated to its number of digits."""
         if rules.digits >= CARD_DIGITS:
             return self.points
         points = []

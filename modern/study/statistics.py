@@ -1,13 +1,13 @@
 """Confidence intervals: Clopper and Pearson's exact ones for proportions and counts, Student's for other means.
 
 A proportion, or a count out of a known total, gets Clopper and Pearson's interval.  Its coverage is at least the level
-for every true proportion, and it never extends below 0 or above the total.  It keeps the level if samples of several
-kinds, each with its own proportion, are counted together, because the count then varies less (Hoeffding).
+(.95 by default) for every true proportion, and it never extends below 0 or above the total.  It keeps the level if
+samples of several kinds, each with a different proportion, are counted together, because the count then varies less
+(Hoeffding).
 
 Student's interval assumes that means are normally distributed.  It is used for quantities that are not counts, such as
-minutes.  It is truncated at limits of the quantity (no time is below 0), which does not lower its level.
-
-Both tails of each interval are equal.  The default ``level`` is .95.
+minutes.  It is truncated at limits of the quantity (no time is below 0), which does not lower its level.  Both tails of
+each interval are equally probable.
 
 References
 ----------
@@ -42,13 +42,13 @@ def exact(hits: int, of: int, level: float = LEVEL) -> Interval:
     return Interval(hits / of, low, high)
 
 
-def count(hits: int, of: int, times: int, level: float = LEVEL) -> Interval:
+def count(hits: int, of: int, times: int) -> Interval:
     """Return the expected number of hits in ``times`` samples, with its interval, after ``hits`` in ``of`` samples."""
-    share = exact(hits, of, level)
+    share = exact(hits, of)
     return Interval(times * share.value, times * share.low, times * share.high)
 
 
-def mean(values: Iterable[float], level: float = LEVEL, least: float = -inf, most: float = inf) -> Interval:
+def mean(values: Iterable[float], least: float = -inf, most: float = inf) -> Interval:
     """Return the mean of a sample with Student's interval, truncated at the bounds ``least`` and ``most``.
 
     ``values`` may be an iterator, because the values are read only once (B. P. Welford, Technometrics 4 (1962)
@@ -61,18 +61,16 @@ def mean(values: Iterable[float], level: float = LEVEL, least: float = -inf, mos
         average += step / number
         # The deviations before and after the update; their product avoids the cancellation of sum(x*x) - n*mean*mean.
         squares += step * (value - average)
-    return mean_of(number, average, squares, level, least, most)
+    return mean_of(number, average, squares, least, most)
 
 
-def mean_of(
-    number: int, average: float, squares: float, level: float = LEVEL, least: float = -inf, most: float = inf
-) -> Interval:
+def mean_of(number: int, average: float, squares: float, least: float = -inf, most: float = inf) -> Interval:
     """Return Student's interval from the number of values, their mean and the sum of squared deviations from it."""
     if number < 1:
         raise ValueError("a mean needs at least one value")
     if number == 1:
         return Interval(average, -inf, inf)
-    half = student(number - 1, level) * sqrt(squares / (number - 1) / number)
+    half = student(number - 1) * sqrt(squares / (number - 1) / number)
     return Interval(average, max(least, average - half), min(most, average + half))
 
 

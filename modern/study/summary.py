@@ -34,7 +34,7 @@ class Summary:
         return self.counts[cell, route].total()
 
     def hits(self, cell: int, route: str, outcomes: Iterable[str] = DETERMINED) -> int:
-        """Return the number of samples with one of the outcomes, by default those with the right hull."""
+        """Return the number of samples with one of the outcomes, by default the outcomes with the right hull."""
         counter = self.counts[cell, route]
         return sum(counter[outcome] for outcome in frozenset(outcomes))
 

@@ -1,31 +1,8 @@
 """Read a plan from a TOML file, which describes a study without Python code.
 
-::
-
-    name = "mine"
-    title = "What three digits do"
-    question = "How often do the programs refuse them?"
-    samples = 200                    # the default for each cell
-
-    [[route]]
-    name = "as listed"               # kind = "programs" is the default
-
-    [[route]]
-    name = "float64"
-    kind = "port"
-    arithmetic = "float64"
-
-    [[cell]]
-    family = "integers"
-    parameters = { digits = 3, n = [4, 20] }
-
-    [[cell]]
-    family = "file"                  # the points of a deck, CSV or OFF file next to the plan
-    parameters = { path = "mine.csv", shuffle = true }
-
-A cell uses all routes unless it lists some (``routes = ["float64"]``).  The default key of a cell is its family and
-parameters.  ``family = "mine:points"`` is the function ``points`` of ``mine.py`` next to the plan or on
-Python's module path; ``measures = ["mine:spread"]`` works the same way.
+docs/how-to/own-study.md describes every key.  A cell uses all routes unless it lists some.  The default key of a cell
+consists of its family and parameters.  ``family = "mine:points"`` names the function ``points`` of ``mine.py`` next to
+the plan or on Python's module path; ``measures = ["mine:spread"]`` names a measure in the same way.
 """
 
 import re
@@ -81,7 +58,7 @@ class _Section:
 
     @contextmanager
     def locating(self, key: str = "") -> Iterator[None]:
-        """Turn an error of the block into one that names file and line."""
+        """Turn an error of the block into a PlanError that names the file and the line."""
         try:
             yield
         except EmulatorError as error:
@@ -245,5 +222,5 @@ def _cell(raw: Mapping[str, Any], routes: Mapping[str, Route], samples: int, sec
     optional = {"chunk": section.integer(raw, "chunk", CHUNK, 1), "reference": raw.get("reference", "")}
     key = dict(raw.get("key", default_key))
     if not all(isinstance(value, str | int) for value in key.values()):
-        raise section.error("the values of its key must be text or integers", "key")
+        raise section.error("the values in key must be text or integers", "key")
     return Cell(key, family, parameters, tuple(routes[name] for name in route_names), samples, **optional)

@@ -33,7 +33,7 @@ from modern.thesis.batch import Runs
 
 # The number of chunks submitted for each worker: enough to keep it busy, few enough to limit memory use.
 AHEAD = 2
-# Seconds to wait for a scheduler.
+# The number of seconds to wait for a scheduler.
 TIMEOUT = 10
 _ADDRESS = re.compile(r"(\w+://)?[^\s:/]+:\d{1,5}|\w+://\[[0-9a-fA-F:]+\]:\d{1,5}")
 
@@ -74,7 +74,7 @@ def chunk_text(cell: Cell, seed: int, chunk: Chunk, soon: bool = False) -> str:
 
 
 def work_on(cell: Cell, seed: int, chunk: Chunk, soon: bool = False) -> RowsOrError:
-    """Compute the rows of a chunk, or return the message of the error that prevents this."""
+    """Return the rows of a chunk and an empty text, or an empty text and the message of the error that occurred."""
     try:
         return chunk_text(cell, seed, chunk, soon), ""
     except EmulatorError as error:
@@ -92,7 +92,7 @@ def in_processes(plan: Plan, chunks: Sequence[Chunk], workers: int) -> Generator
     Raise PlanError if a chunk cannot be carried out or a worker dies.
     """
     alone = workers == 1 or len(chunks) <= 1
-    # Workers take seconds to start.  If no compiled code exists, this process has the first sample before they begin.
+    # Workers take seconds to start.  If no compiled code exists, this process computes the first sample before that.
     number = len(chunks) if alone else int(chunks[0].stop == 1 and must_compile())
     for chunk in chunks[:number]:
         yield chunk, chunk_text(plan.cells[chunk.cell], plan.seed, chunk, soon=True)
@@ -142,7 +142,7 @@ def _submit_and_wait(
 
 
 def _begin_worker() -> None:
-    """Ignore Ctrl-C, which the parent process handles, and end when the parent ends, even if it was killed."""
+    """Make a worker process ignore Ctrl-C, which its parent handles, and end when its parent ends or is killed."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     parent = multiprocessing.parent_process()
 
@@ -202,7 +202,7 @@ def _loaded() -> None:
 
 
 def _work_on_cluster(expected: dict[str, str], cell: Cell, seed: int, chunk: Chunk) -> RowsOrError:
-    """Return the rows of a chunk, or an error if the versions of this worker are not the expected ones."""
+    """Return the rows of a chunk, or an error message if this worker has other versions of packages than expected."""
     installed = versions()
     for name, version in expected.items():
         if installed.get(name) != version:

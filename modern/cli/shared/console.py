@@ -79,11 +79,8 @@ def print_notes(lines: Iterable[str]) -> None:
 
 def report_stream(args: argparse.Namespace) -> TextIO:
     """Return the stream of a command's report: standard error if the command writes data to standard output."""
-    return (
-        sys.stderr
-        if "-" in (vars(args).get(name) for name in ("json", "csv", "html", "samples", "output"))
-        else sys.stdout
-    )
+    outputs = (vars(args).get(name) for name in ("json", "csv", "html", "samples", "output"))
+    return sys.stderr if "-" in outputs else sys.stdout
 
 
 def print_report(args: argparse.Namespace, lines: Iterable[str]) -> None:

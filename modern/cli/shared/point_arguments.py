@@ -40,8 +40,9 @@ def diff(parser: ArgumentParser) -> None:
 
 def export(parser: ArgumentParser) -> None:
     points_argument(parser)
-    output_argument(parser, formats=f", whose name ends with {listed(f'.{name}' for name in HULLS)}, or with --format")
-    add(parser, {"--format": "the format (default: the one that the name ends with)"}, choices=tuple(HULLS))
+    endings = listed(f".{name}" for name in HULLS)
+    output_argument(parser, formats=f" in the format of its ending, {endings}, or in the format of --format")
+    add(parser, {"--format": "write this format (default: the format of the ending)"}, choices=tuple(HULLS))
     coplanar_argument(parser)
 
 
@@ -74,7 +75,7 @@ def draw(parser: ArgumentParser) -> None:
 
 
 def appel_will(parser: ArgumentParser) -> None:
-    points_argument(parser, "FILE", " (points and surfaces)")
+    points_argument(parser, "FILE", " (the surfaces of an OFF file are read too)")
     printed_arguments(parser, "rule", "star, step3, step5, step7, step9, step10")
     inside_corners = (
         "delete points on inside corners first, by the rule any (valid if no point is on more than three planes), two "
@@ -90,7 +91,7 @@ def appel_will(parser: ArgumentParser) -> None:
     parser.set_defaults(endings=(".off", ".svg"))
     pictures = {
         "--map": "with -o FILE.svg: draw the planar topological map instead",
-        "--star-of I-J": "with -o FILE.svg: draw the star polygon of the line of points I and J instead",
+        "--star-of I-J": "with -o FILE.svg: draw the star polygon of the line between points I and J instead",
     }
     add(parser.add_mutually_exclusive_group(), pictures)
     eye_argument(parser)
@@ -124,12 +125,12 @@ def hidden_line(parser: ArgumentParser) -> None:
     }
     add(parser, tables)
     without = (
-        "omit these corrections of the paper's method: enclosed, touching, ends; or the paper's step ghosts "
-        "(default: omit none)"
+        "omit these corrections of the paper's method (enclosed, touching, ends), or the paper's step ghosts "
+        "(default: omit nothing)"
     )
     add(parser, {"--without CORRECTION,...": without}, default="")
     title_argument(parser, "the scene's title")
-    add(parser, {"--width PIXELS": "width of the SVG (default: 640)"}, type=int, default=640)
+    add(parser, {"--width PIXELS": "draw the SVG this many pixels wide (default: 640)"}, type=int, default=640)
 
 
 def _width_argument(parser: ArgumentParser) -> None:

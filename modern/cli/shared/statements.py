@@ -92,7 +92,7 @@ def statement_lines(judgements: Sequence[Judged], paint: Paint, indented: Indent
 
 
 def statement_summary(judgements: Sequence[Judged], paint: Paint, indented: Indented) -> Iterator[str]:
-    """Yield, for each document, how many statements have each verdict and grade, and the ids of the false ones."""
+    """Yield the numbers of statements by document, verdict and grade, and the ids of those that do not hold."""
     yield "Statements"
     for document in DOCUMENTS:
         rows = [judged for judged in judgements if judged.statement.document == document]

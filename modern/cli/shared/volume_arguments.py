@@ -27,7 +27,7 @@ def voxel_hull(parser: ArgumentParser) -> None:
     add(parser, {"--corners": corners}, type=int, choices=(6, 26))
     order = (
         "insert the local corners one by one, in the paper's order or in a faster one, and count triangles "
-        "(default: none; build the cell list of the final hull only; with --coplanar: raster)"
+        "(default: build only the cell list of the final hull; with --coplanar: raster)"
     )
     add(parser, {"--order": order}, choices=("raster", "shuffled"))
     coplanar = "treat a face coplanar with the inserted point as visible or invisible (default: visible)"
@@ -56,7 +56,7 @@ def octree_hull(parser: ArgumentParser) -> None:
     _volume_arguments(parser)
     printed_arguments(parser, "statement", "angle, start, triangles, truncation, bound, corners, marks")
     tables = {
-        "--tables": "print floor and ceiling, the reduced sets, and every face (default: a summary)",
+        "--tables": "print the floor and the ceiling, the reduced sets, and every face (default: a summary)",
         "--trace": "print the tables, and the result of processing every edge taken from the queue",
     }
     add(parser, tables)
@@ -83,10 +83,10 @@ def _volume_arguments(parser: ArgumentParser) -> None:
     add(parser, {"--label N": label}, type=int, action="append", default=[])
     values = {
         "--threshold T": "select the voxels whose value is at least T (>=)",
-        "--spacing DX,DY,DZ": "the distances between voxel centres, if the file does not state them",
-        "--origin X,Y,Z": "with --spacing: the centre of voxel (0, 0, 0) (default: 0,0,0)",
-        "--shape NX,NY,NZ": "the shape of a raw array, x fastest; required for one",
-        "--dtype TYPE": "the type of the numbers in a raw array (default: uint8)",
+        "--spacing DX,DY,DZ": "use these distances between voxel centres if the file states none",
+        "--origin X,Y,Z": "with --spacing: put the centre of voxel (0, 0, 0) at this point (default: 0,0,0)",
+        "--shape NX,NY,NZ": "read a raw array of this shape, x fastest; required for a raw array",
+        "--dtype TYPE": "read numbers of this type from a raw array (default: uint8)",
         "--array NAME": "choose an array of an NPZ file with several arrays",
         "--series UID": "choose a series of a folder with several DICOM series",
     }

@@ -132,11 +132,11 @@ class _Group:
         return _Group(*(getattr(self, part.name) + getattr(other, part.name) for part in fields(self)))
 
     def best_e(self) -> int:
-        """Return k of the e = 10**k that notices the most wrong decisions; of several such e, the smallest."""
+        """Return the exponent of the e = 10**k that notices the most wrong decisions; of several, the least."""
         return max(POWERS, key=lambda k: self.noticed[e_name(k)])
 
     def share(self, counter: Counter[str], name: str) -> Interval | None:
-        """Return a counter of a method as a share of the runs with a wrong decision, or of the sound runs."""
+        """Return a count of a method as a share of the sound runs if it counts these, otherwise of the wrong runs."""
         of = self.sound if counter is self.alarmed or counter is self.spoiled else self.wrong
         return exact(counter[name], of) if of else None
 

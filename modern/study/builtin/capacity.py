@@ -78,7 +78,7 @@ def _peaks(plan: Plan, store: Store) -> dict[int, _Peak]:
 
 
 def positions(places: int) -> int:
-    """Return the core positions, with subroutines, that program 3 needs with a plane table of this many entries."""
+    """Return the core positions that program 3 and its subroutines need with a plane table of ``places`` entries."""
     program = programs.program("program3")
     longer = sum(places - PLACES for entry in program.storage.arrays() if entry.size == PLACES)
     return OBJECT_PROGRAM + FUNCTION_NAMES + code_positions(program) + (program.storage.fields + longer) * FIELD

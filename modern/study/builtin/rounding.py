@@ -29,7 +29,7 @@ DECIMAL: Mapping[str, str] = {
 BINARY = ("float32", "float64")
 WAYS = (*DECIMAL, *BINARY)
 SIZES = (9, 99, 150, 200, 250, 300, 350, 400, 500, 999, 9999)
-# Exponents of ten: half the width of the interval, divided by the largest coefficient A, B or C of the equation.
+# Exponents k: half the width of the interval is 10**k times the largest coefficient A, B or C of the equation.
 WIDTHS = tuple(range(-6, 0))
 BOXES = "whole numbers"
 _WRONG_HULLS = "The last column counts the wrong hulls of each arithmetic, in the order of the columns before it."

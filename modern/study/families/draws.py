@@ -35,7 +35,7 @@ class Draw:
         return self.random.randint(low, high)
 
     def count(self, n: Count) -> int:
-        """Return a number of points: ``n``, or a random number between its ends.  Raise FamilyError unless 1 to 51."""
+        """Return ``n``, or a random number in the range ``n``.  Raise FamilyError unless ``n`` is within 1 to 51."""
         low, high = whole_range(n, "n")
         if not 1 <= low <= high <= MOST:
             raise FamilyError(
@@ -67,11 +67,8 @@ class Drawn:
 
 def drawn(points: Sequence[Whole], places: int = 0, **tags: str | int) -> Drawn:
     """Return a set of points whose coordinates are integers times 10**-places."""
-    return Drawn(tuple((_text(x, places), _text(y, places), _text(z, places)) for x, y, z in points), tags)
-
-
-def _text(number: int, places: int) -> str:
-    return scaled_decimal(number, -places) if places else str(number)
+    texts = ([scaled_decimal(coordinate, -places) for coordinate in point] for point in points)
+    return Drawn(tuple((x, y, z) for x, y, z in texts), tags)
 
 
 def whole_range(value: Count, name: str) -> tuple[int, int]:
@@ -90,5 +87,5 @@ def whole_range(value: Count, name: str) -> tuple[int, int]:
 def size_of(digits: int) -> int:
     """Return the largest integer of the given number of digits.  Raise FamilyError if no card holds it."""
     if not isinstance(digits, int) or not 1 <= digits <= DIGITS:
-        raise FamilyError(f"digits: expected 1 to {DIGITS}, which a card holds, found {digits}")
+        raise FamilyError(f"digits: expected 1 to {DIGITS}, as many as a card holds, found {digits}")
     return int(10**digits - 1)

@@ -18,12 +18,10 @@ def published_sets() -> dict[str, tuple[Point, ...]]:
     for number in chapter6.EXAMPLES:
         sets[f"example {number}"] = tuple(parse_input(chapter6.input_deck(number).text(), f"example {number}").points)
     for theorem in load_theorems():
-        texts = [
-            (finite_decimal(x), finite_decimal(y), finite_decimal(z)) for x, y, z in (p.at for p in theorem.points)
-        ]
         # Points whose coordinates have no finite decimal expansion cannot be punched, so their theorem is left out.
+        texts = (map(finite_decimal, point.at) for point in theorem.points)
         points = tuple((x, y, z) for x, y, z in texts if x and y and z)
-        if len(points) == len(texts):
+        if len(points) == len(theorem.points):
             sets[f"theorem {theorem.id}"] = points
     return sets
 

@@ -14,12 +14,7 @@ FINE = 10**12
 
 def integers(draw: Draw, digits: int, n: Count) -> Drawn:
     """Points whose coordinates are random integers from -(10**digits - 1) to 10**digits - 1."""
-    size = size_of(digits)
-
-    def point() -> Whole:
-        return draw.whole(-size, size), draw.whole(-size, size), draw.whole(-size, size)
-
-    return drawn(draw.distinct(draw.count(n), point))
+    return box(draw, size_of(digits), n)
 
 
 def box(draw: Draw, most: int, n: Count, centre: int = 0) -> Drawn:
@@ -131,7 +126,7 @@ def near_coplanar(draw: Draw, digits: int, n: Count, gap: int) -> Drawn:
     """
     size, unit = size_of(digits), 10**gap
     if not isinstance(gap, int) or gap < 0:
-        raise FamilyError(f"gap: expected 0 or more, for 10**-gap, found {gap}")
+        raise FamilyError(f"gap: expected an integer of at least 0, for a gap of 10**-gap, found {gap}")
     p, q = draw.whole(-1, 1), draw.whole(-1, 1)
     base = draw.distinct(max(4, draw.count(n)), lambda: (draw.whole(-size, size), draw.whole(-size, size), 0))
     lifts = [draw.random.choice((0, 0, 0, 0, 1, -1)) for _ in base]

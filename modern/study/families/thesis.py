@@ -27,7 +27,7 @@ to 12, of which a given share is replaced by such decimals, from .0100 to .0999.
 from collections.abc import Callable, Mapping
 
 from emulator.errors import quoted
-from modern.geometry.vectors import minus
+from modern.geometry.vectors import cross, minus
 from modern.study.families.draws import Count, Draw, Drawn, FamilyError, Whole, drawn
 
 N = (4, 17)
@@ -51,9 +51,7 @@ def thesis(
     if unknown or not weights or min(weights.values()) < 0 or not any(weights.values()):
         raise FamilyError(f"kinds: expected {', '.join((*KINDS, SHEET))}, each with a weight of 0 or more")
     if not isinstance(decimals, int) or not 0 <= decimals <= 1000:
-        raise FamilyError(
-            f"decimals: expected how many of 1,000 coordinates have decimals, from 0 to 1000, found {decimals}"
-        )
+        raise FamilyError(f"decimals, in thousandths of the coordinates: expected 0 to 1000, found {decimals}")
     if form not in FORMS:
         raise FamilyError(f"form: expected {' or '.join(FORMS)}, found {quoted(form)}")
     pick = draw.whole(1, sum(weights.values()))
@@ -81,8 +79,7 @@ def data_sheet(draw: Draw, decimals: int, form: str) -> list[Whole]:
 def three_points(draw: Draw, _: int) -> list[Whole]:
     while True:
         p, q, r = draw.distinct(3, lambda: _in_box(draw, _LARGE))
-        u, v = minus(q, p), minus(r, p)
-        if any(u[i] * v[j] != u[j] * v[i] for i, j in ((0, 1), (0, 2), (1, 2))):
+        if any(cross(minus(q, p), minus(r, p))):
             return [p, q, r]
 
 
@@ -102,11 +99,9 @@ def plane(draw: Draw, count: int) -> list[Whole]:
     if draw.whole(0, 1):
         axis, height = draw.whole(0, 2), draw.whole(-_SMALL, _SMALL)
         return draw.distinct(count, lambda: _replaced(_in_box(draw, _SMALL), axis, height))
-    start = _in_box(draw, _SMALL)
-    while True:
+    start, u, v = _in_box(draw, _SMALL), (0, 0, 0), (0, 0, 0)
+    while not any(cross(u, v)):
         u, v = _in_box(draw, 2), _in_box(draw, 2)
-        if any(u[i] * v[j] != u[j] * v[i] for i, j in ((0, 1), (0, 2), (1, 2))):
-            break
     return draw.distinct(
         count, lambda: _plus(_plus(start, u, draw.whole(-_SMALL, _SMALL)), v, draw.whole(-_SMALL, _SMALL))
     )

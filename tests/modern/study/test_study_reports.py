@@ -207,7 +207,7 @@ CELL = f"{ROUTE}[[cell]]\n"
         (f"{CELL}family = 3", "cell 1: expected family to be text, found 3"),
         (f"{CELL}family = 'thesis'\nroutes = 3", "expected routes to be a list of names, found 3"),
         (f"{CELL}family = 'thesis'\nparameters = 3", "expected parameters to be { name = value }"),
-        (f"{CELL}family = 'thesis'\nkey = {{a = [1]}}", "values of its key"),
+        (f"{CELL}family = 'thesis'\nkey = {{a = [1]}}", "the values in key must be text or integers"),
     ],
 )
 def test_invalid_plan_file_gives_a_one_line_error(tmp_path: Path, text: str, message: str) -> None:
