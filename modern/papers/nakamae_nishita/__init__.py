@@ -1,9 +1,8 @@
 """Nakamae and Nishita's algorithm (1972): hidden line elimination for scenes of convex polyhedra.
 
-An object consists of convex polyhedra that may touch. Their faces are classified as front or back faces
-(``modern.drawing.visible``), their contours are compared in pairs (``contours``, ``nearness``), and the parts of edges
-behind a nearer contour are found by counting intersections (``crossings``, ``hidden``). All decisions are made in
-integers.
+An object consists of convex polyhedra that may touch. ``modern.drawing.visible`` classifies their faces as front or
+back faces. ``contours`` and ``nearness`` compare the contours of the polyhedra in pairs. ``crossings`` and ``hidden``
+find the parts of edges behind a nearer contour by counting intersections. All decisions are made in integers.
 
 References
 ----------

@@ -1,10 +1,10 @@
 """Read the convex polyhedra in a file with faces: its connected components, each of which is proved to be convex.
 
-Two faces are connected if they share an edge to which no third face belongs. A component must be closed, its faces
-plane and all its edges convex. The exact hull then confirms that its faces lie on the hull of its vertices. If a
-component is not convex, the message names the deepest reflex edge, where the solid can be divided. Alternatives are to
-take its hull, or to merge faces that are within a distance of one plane. Faces and vertices are counted from 1 in the
-order of the file.
+Two faces are connected if they share an edge to which no third face belongs. A component must be closed, its faces must
+be plane, and all its edges must be convex. The exact hull of its vertices then confirms that its faces lie on the hull.
+If a component is not convex, the message names the deepest reflex edge, at which the solid can be divided. Alternatives
+are to use the hull of the component, or to merge faces that are within a distance of one plane. Messages count faces
+and vertices from 1 in the order of the file.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -31,9 +31,9 @@ IntPoint = tuple[int, int, int]
 class Reading:
     """The options with which a file of faces is read.
 
-    ``hull`` replaces each component by its hull, ``within`` merges faces within this distance of one plane, and
-    ``points`` accepts a file with points only, as ``hull`` does. ``as_hull`` and ``as_within`` are the names of the
-    options ``hull`` and ``within`` in messages.
+    ``hull`` replaces each component by its hull. ``within`` merges faces within this distance of one plane. ``points``
+    accepts a file with points only, as ``hull`` does. Messages refer to ``hull`` and ``within`` by the texts
+    ``as_hull`` and ``as_within``.
     """
 
     hull: bool = False
@@ -53,7 +53,7 @@ class Bodies:
 
 @dataclass(frozen=True, slots=True)
 class _Component:
-    """A connected part of a surface: its faces and vertices, sorted, as indices in the file."""
+    """A connected part of a surface: its name in messages, and the sorted indices of its faces and vertices."""
 
     name: str
     faces: tuple[int, ...]
@@ -61,7 +61,7 @@ class _Component:
 
 
 def read_bodies(data: bytes, name: str, reading: Reading) -> Bodies:
-    """Return the components of a file's surface, or the hull of a file's points. Raise EmulatorError."""
+    """Return the components of a file's surface, or the hull of a file's points. Raise EmulatorError if invalid."""
     if surface_kind(data, name):
         surface = parse_mesh(data, name)
         if surface.faces:
@@ -83,9 +83,10 @@ def read_bodies(data: bytes, name: str, reading: Reading) -> Bodies:
 
 
 def bodies(surface: FileMesh, reading: Reading, name: str) -> Bodies:
-    """Return the components of a file as convex polyhedra. Messages call the file ``name``.
+    """Return the components of a file as convex polyhedra. ``name`` is the name of the file in messages.
 
-    Raise SceneError if a component is not closed or not convex, CoplanarError if the distance is too large for one.
+    Raise SceneError if a component is not closed or not convex, and CoplanarError if the distance for merging faces is
+    too large.
     """
     components = _components(surface, name)
     notes = [f"{name}: {len(components)} connected components"] if len(components) > 1 else []
@@ -171,9 +172,9 @@ def _body(surface: FileMesh, component: _Component, reading: Reading) -> tuple[P
 
 @dataclass(frozen=True, slots=True)
 class _Closed:
-    """A closed component with integer coordinates, multiplied by ``scale``, and faces counterclockwise from outside.
+    """A closed component with its faces counterclockwise from outside. Coordinates are multiplied by ``scale``.
 
-    Points, faces and normals are indexed as in the file.
+    The keys of points, faces and normals are indices in the file.
     """
 
     surface: FileMesh
@@ -206,15 +207,16 @@ def _closed(surface: FileMesh, component: _Component) -> _Closed:
 
 
 def _dents(closed: _Closed) -> Iterator[tuple[Fraction, int, int, int, int]]:
-    """Yield the reflex edges of a component, where it is not convex.
+    """Yield the reflex edges of a component, at which it is not convex.
 
-    For each: the squared height of one face above the plane of its neighbour, the two faces, the two vertices.
+    An edge is given as the squared height of one of its faces above the plane of the other face, followed by the
+    indices of the two faces and of the two vertices.
     """
     points, normals = closed.points, closed.normals
     owner = {edge: order for order, face in closed.faces.items() for edge in sides(face)}
     for (a, b), order in owner.items():
         neighbour, normal = owner[b, a], normals[order]
-        # Over a reflex edge the normals turn against the sense of the edge. Each edge is examined from one side.
+        # At a reflex edge the normals turn against the sense of the edge. Each edge is examined from one side only.
         if order < neighbour and dot(cross(normal, normals[neighbour]), minus(points[b], points[a])) < 0:
             depth = max(dot(normal, minus(points[place], points[a])) for place in closed.faces[neighbour])
             yield Fraction(depth * depth, dot(normal, normal) * closed.scale**2), order, neighbour, a, b
@@ -245,7 +247,7 @@ def _as_given(closed: _Closed) -> Polyhedron:
 def _flaws(closed: _Closed, hull: Hull, polyhedron: Polyhedron, reading: Reading) -> Iterator[str]:
     """Yield the reasons why a closed component without reflex edges is still not the hull of its vertices.
 
-    Each face must be a plane convex polygon in the plane of a face of the hull, and all must cover the hull once.
+    Each face must be a plane convex polygon in the plane of a face of the hull, and the faces must cover the hull once.
     """
     points = closed.points
     planes = {face.lowest for face in hull.faces}
@@ -275,7 +277,7 @@ def _joined(hull: Hull, within: Fraction, name: str) -> Joined:
 
 
 def _far(closed: _Closed, hull: Hull, joined: Joined) -> int | None:
-    """Return a face that lies farther than the allowed distance from the plane of every merged face, or None."""
+    """Return the index of a face that is not within the allowed distance of the plane of any merged face, or None."""
     planes, around = [], dict[int, set[int]]()
     for number, group in enumerate(joined.groups):
         a, b, c, d = hull.faces[group[0]].lowest

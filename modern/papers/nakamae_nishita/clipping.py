@@ -1,8 +1,8 @@
-"""Clip a scene at the near plane of a perspective: omit polyhedra in front of it, and cut those that it intersects.
+"""Clip a scene at the near plane of a perspective: omit polyhedra on its near side, and cut those that it intersects.
 
-The plane is perpendicular to the direction of view, at a distance from the eye that is a fraction within 1/10^15 of the
-requested distance. The intersections of edges with this plane are exact, so a clipped polyhedron is convex again and
-has a face in the plane.
+The plane is perpendicular to the direction of view. Its distance from the eye is a fraction that differs from the
+requested distance by at most 1e-15 of it. The intersections of edges with this plane are exact, so a clipped polyhedron
+is convex again and has a face in the plane.
 """
 
 from collections.abc import Sequence
@@ -56,9 +56,9 @@ def _depth(point: Vector, observer: Observer) -> Fraction:
 
 
 def _clipped(polyhedron: Polyhedron, depths: Sequence[Fraction], observer: Observer) -> Polyhedron:
-    """Return the part of a polyhedron beyond the near plane.  Its last face is the cut, which a flat plate lacks."""
+    """Return the part of a polyhedron beyond the near plane. Its last face is in that plane, except for a plate."""
     points = list(polyhedron.vertices)
-    # The index of the new vertex on every edge that the plane cuts. Two faces share each of them.
+    # The index of the new vertex on every edge that the plane cuts. Two faces share each new vertex.
     cuts: dict[tuple[int, int], int] = {}
 
     def crossing(a: int, b: int) -> int:
@@ -81,7 +81,7 @@ def _clipped(polyhedron: Polyhedron, depths: Sequence[Fraction], observer: Obser
                 clipped_face.append(crossing(a, b))
         faces.append(tuple(clipped_face))
         orders.append(order)
-    # After clipping, the edges with only one face lie in the near plane. In reverse, they bound the section.
+    # After clipping, the edges with only one face lie in the near plane. In reverse, they bound the face in that plane.
     edges = {edge for face in faces for edge in sides(face)}
     ahead = {b: a for a, b in edges if (b, a) not in edges}
     groups = [polyhedron.joined[order] for order in orders] if polyhedron.joined else []
@@ -114,7 +114,7 @@ def _cut(corners: Sequence[Vector], observer: Observer) -> tuple[Vector, ...]:
 
 
 def _between(p: Vector, q: Vector, at_p: Fraction, at_q: Fraction) -> Vector:
-    """Return the point between p and q where a linear function is 0; ``at_p`` and ``at_q`` are its values there."""
+    """Return the point between p and q where a linear function with the values ``at_p`` and ``at_q`` is 0."""
     share = at_p / (at_p - at_q)
     x, y, z = (a + share * (b - a) for a, b in zip(p, q, strict=True))
     return x, y, z

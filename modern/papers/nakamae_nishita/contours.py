@@ -1,12 +1,12 @@
-"""Find pairs of polyhedra that may overlap in the picture, and compute two tables (PL, LP) for each pair
-(section 3.2).
+"""Find pairs of polyhedra that may overlap in the picture, and compute the tables PL and LP of a pair (section 3.2).
 
-Pairs with overlapping bounding boxes are found on a grid of cells. The boxes are in floating point and widened by more
-than the rounding error, so no pair is lost. A superfluous pair only costs a table.
+Pairs with overlapping bounding boxes are found on a grid of cells. The boxes are in floating point and are widened by
+more than the rounding error, so no pair is lost. A superfluous pair costs only the time for its tables.
 
-The tables are those of formulas (2) and (3), with properties 1 to 4. V has the vertices P_i, V' the vertices P_j, both
-clockwise. ``PL[j][i]`` is the side of the segment from P_i to P_(i+1) on which P_j lies, ``LP[j][i]`` the side of the
-segment from P_j to P_(j+1) on which P_i lies. 1 is the inner side.
+The tables are those of formulas (2) and (3), and have the paper's properties 1 to 4. The contour of V has the vertices
+P_i, and the contour of V' the vertices P_j, both clockwise. ``PL[j][i]`` tells on which side of the segment from P_i to
+P_(i+1) the vertex P_j lies, and ``LP[j][i]`` on which side of the segment from P_j to P_(j+1) the vertex P_i lies. 1 is
+the inner side, -1 the outer side, and 0 the line itself.
 """
 
 import math
@@ -23,11 +23,10 @@ _CELLS = 1 << 12
 
 
 def boxes(contours: Sequence[Sequence[Homogeneous]]) -> list[Box | None]:
-    """Return the bounding box (left, right, low, high) of each contour in the picture, scaled into -1 to 1.
+    """Return the bounding box (left, right, low, high) of each contour in the picture, or None for an empty contour.
 
-    An empty contour has None. One power of two divides all coordinates, so that they lie from -1 to 1. Python rounds
-    quotients of integers correctly, so each side of a box has an error of at most 2**-54 and is moved
-    outward by 2**-50.
+    All coordinates are divided by one power of two, so that they lie from -1 to 1. Python rounds quotients of integers
+    correctly, so each side of a box has an error of at most 2**-54. Each side is moved outward by 2**-50.
     """
     shift = max(
         (max(abs(x), abs(y)).bit_length() - w.bit_length() + 1 for contour in contours for x, y, _, w in contour),
@@ -46,7 +45,7 @@ def boxes(contours: Sequence[Sequence[Homogeneous]]) -> list[Box | None]:
 
 
 def overlapping(all_boxes: Sequence[Box | None]) -> Iterator[tuple[int, int]]:
-    """Yield the pairs of boxes that overlap, as sorted indices, found by a grid with about one cell for each box."""
+    """Yield the pairs of indices of boxes that overlap, in increasing order."""
     nonempty = [(index, box) for index, box in enumerate(all_boxes) if box is not None]
     if len(nonempty) < 2:
         return
@@ -88,9 +87,10 @@ CROSSING = -4
 
 
 def values(lines: Sequence[Line], points: Sequence[tuple[int, int, int, int]]) -> Values | None:
-    """Evaluate formula (1), the side of a line on which a point lies, for each line (rows) and each point (columns).
+    """Return the values of formula (1) for each line (rows) and each point (columns).
 
-    Return None if all points are outside one of the lines. The contours then do not overlap (property 1).
+    A value is positive if the point is on the inner side of the line. Return None if no point is on the inner side of
+    one of the lines. The contours then do not overlap (property 1).
     """
     columns = []
     # Formula (1) for a point (x, y, w) and the line of a segment: positive on its right, the inside of the contour.
@@ -104,10 +104,9 @@ def values(lines: Sequence[Line], points: Sequence[tuple[int, int, int, int]]) -
 
 @dataclass(frozen=True, slots=True)
 class Tables:
-    """The paper's tables PL and LP for two contours V and V': on which side of each segment each vertex of the other
-    lies.
+    """The paper's tables PL and LP for two contours V and V', as described at the head of this module.
 
-    The rows are the vertices of V', the columns those of V.
+    The rows belong to the vertices of V', and the columns to the vertices of V.
     """
 
     pl: tuple[Row, ...]
@@ -116,8 +115,8 @@ class Tables:
     def crossing_number(self, i: int, j: int) -> int:
         """Return d of the paper's formula (3), which tells how segment i of V and segment j of V' meet.
 
-        d is -4 if the segments intersect, -2 if a vertex lies on a segment, -1 if a vertex lies on a vertex, and 0
-        otherwise, also if the segments overlap in a line.
+        d is -4 if the segments intersect, -2 if an end of one segment lies on the other segment, -1 if two ends
+        coincide, and 0 otherwise, also for overlapping segments in one line.
         """
         after_i, after_j = (i + 1) % len(self.pl[0]), (j + 1) % len(self.pl)
         # Both differences are 2 in absolute value if each segment has its ends on opposite sides of the other.
@@ -146,10 +145,10 @@ class Tables:
 
 
 def tables(of_near: Values, of_far: Values) -> Tables:
-    """Compute the tables PL and LP, which hold the signs of the values of formula (1), for two contours V and V'.
+    """Return the tables PL and LP of two contours V and V', which have the signs of the values of formula (1).
 
-    ``of_near`` holds the values of V's segments at the vertices of V', ``of_far`` those of the segments of V' at the
-    vertices of V.
+    ``of_near`` has the values of the segments of V at the vertices of V', and ``of_far`` the values of the segments of
+    V' at the vertices of V.
     """
     signs = [[(f > 0) - (f < 0) for f in column] for column in of_near]
     return Tables(tuple(zip(*signs, strict=True)), tuple(tuple((f > 0) - (f < 0) for f in row) for row in of_far))

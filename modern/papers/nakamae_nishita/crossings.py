@@ -1,7 +1,8 @@
 """Find the points at which a segment passes behind a contour and emerges again (sections 3.4 and 3.5, formula (6)).
 
-A point on a segment from P_A to P_B is given by s, its distance from P_A in space as a fraction of the segment. Its
-index is +k if the segment enters the contour there and -k if it leaves, where k is the number of intersections.
+A point on a segment from P_A to P_B is given by its distance s from P_A in space, as a fraction of the segment's
+length. The index of an intersection is +k if the segment enters the contour there and -k if the segment leaves the
+contour. k is the number of intersections of the segment and the contour.
 """
 
 from collections.abc import Sequence
@@ -17,11 +18,10 @@ Mark = tuple[Fraction, int]
 
 @dataclass(frozen=True, slots=True)
 class Passage:
-    """The course of a segment behind one contour: the points where the segment enters or leaves, with the paper's
-    indices I_0.
+    """The course of a segment behind one contour.
 
-    ``enclosed`` is True if the whole segment lies within the contour, so that the segment does not intersect the
-    contour.
+    ``marks`` has the points at which the segment enters or leaves the contour, with the paper's indices I_0.
+    ``enclosed`` is True if the whole segment lies within the contour, so that there is no such point.
     """
 
     marks: tuple[Mark, ...]
@@ -29,8 +29,9 @@ class Passage:
 
     @property
     def order(self) -> int:
-        """The order of invisibility that this contour adds at the first end of the segment: 1 if the segment begins
-        behind the contour and leaves it (index -1), otherwise 0.
+        """The order of invisibility of the segment's first end by its intersections with this contour.
+
+        The order is 1 if the segment begins behind the contour and leaves it (index -1), otherwise 0.
         """
         return sum(index == -1 for _, index in self.marks)
 
@@ -40,15 +41,15 @@ ENCLOSED = Passage((), True)
 
 
 def clipped(values: Values, first: int, last: int) -> Passage:
-    """Compute the passage of the segment between two points behind a contour, correctly also at vertices of the
-    contour.
+    """Return the passage of a segment behind a contour. It is correct also if the segment meets the contour's vertices.
 
-    ``values`` holds formula (1) of each contour segment at all points. The segment is clipped to the inner side of each
-    line, so only a part of positive length strictly within the contour is hidden.
+    ``values`` has formula (1) of each segment of the contour (rows) at all points (columns). ``first`` and ``last`` are
+    the columns of the segment's ends. The segment is clipped to the inner side of each line of the contour. Therefore
+    only a part of positive length strictly within the contour is hidden.
     """
-    # The hidden part is from enter_up / enter_down to leave_up / leave_down. Formula (1) is linear along the segment,
-    # from a at P_A to b at P_B, and the greatest entry and the least exit over all lines bound the part inside. The
-    # fractions are compared by cross multiplication, because this loop runs for every segment and contour line.
+    # The hidden part is from enter_up / enter_down to leave_up / leave_down, as fractions of the segment. Formula (1)
+    # is linear along the segment, from a at P_A to b at P_B. The greatest entry and the least exit over all lines bound
+    # the part inside. For speed, the fractions are compared by cross multiplication.
     enter_up, enter_down, leave_up, leave_down = 0, 1, 1, 1
     for column in values:
         a, b = column[first], column[last]
@@ -81,7 +82,11 @@ def clipped(values: Values, first: int, last: int) -> Passage:
 def as_printed(
     values: Values, first: int, last: int, ends: tuple[Homogeneous, Homogeneous], contour: Sequence[Homogeneous]
 ) -> Passage:
-    """Compute the passage as the paper prints it, which misses an intersection at a vertex of the contour."""
+    """Return the passage by the paper's formulas, which miss an intersection at a vertex of the contour.
+
+    The parameters are those of ``clipped``; ``ends`` are the ends of the segment and ``contour`` the contour's
+    vertices.
+    """
     a, b, c = line_through(_flat(ends[0]), _flat(ends[1]))
     sides = [sign(a * x + b * y + c * w) for x, y, _, w in contour]
     places = []
@@ -92,7 +97,7 @@ def as_printed(
         if d == CROSSING:
             places.append((Fraction(at_a, at_a - at_b), sign(at_b - at_a)))
     if not places:
-        # Properties 3 and 4: no -1 in either row, and not both ends on one segment of the contour.
+        # Properties 3 and 4: neither end is outside a segment of the contour, and not both ends are on one segment.
         within = all(min(column[first], column[last]) >= 0 < max(column[first], column[last]) for column in values)
         return ENCLOSED if within else CLEAR
     return Passage(tuple((place, len(places) * sense) for place, sense in sorted(places)))

@@ -11,7 +11,10 @@ from modern.papers.nakamae_nishita.polyhedron import SceneError
 
 
 class Fields:
-    """The fields of a table in a scene file.  Each is read once; a field that nobody reads is an error."""
+    """The fields of a table in a scene file. A method reads and removes one field; ``done`` rejects all others.
+
+    Each method raises SceneError if the field is invalid.
+    """
 
     def __init__(self, data: Mapping[str, Any], place: str) -> None:
         self.place = place
@@ -21,7 +24,7 @@ class Fields:
         return key in self._data
 
     def take(self, key: str) -> Any:
-        """Remove a field and return its unchecked value, or None if it does not exist."""
+        """Remove a field and return its unchecked value, or None if the field does not exist."""
         return self._data.pop(key, None)
 
     def wrong(self, key: str, message: str) -> SceneError:
@@ -65,7 +68,7 @@ class Fields:
         return None if raw is None else self._vector(key, raw)
 
     def vectors(self, key: str, flat: bool = False) -> tuple[Vector, ...] | None:
-        """Return a list of points.  If ``flat``, points may have two numbers and then lie in the plane z = 0."""
+        """Return a list of points. If ``flat``, a point may have two numbers and then lies in the plane z = 0."""
         if key not in self:
             return None
         return tuple(self._vector(key, item, flat) for item in self._list_of(object, key, "expected a list of points"))
@@ -83,7 +86,7 @@ class Fields:
         return tuple(tuple(item) for item in raw)
 
     def done(self) -> None:
-        """Raise SceneError if the table has a field that was not read, because its name must be wrong."""
+        """Raise SceneError if the table has a field that was not read."""
         for key in self._data:
             raise SceneError(f"{self.place}: {quoted(key)} is not a known field of this table")
 

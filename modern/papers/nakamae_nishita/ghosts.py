@@ -1,7 +1,7 @@
 """Find ghost lines: edges that must not be drawn because they only divide a plane face of an object (section 3.4).
 
-Two edges of one object are not drawn where they overlap, if their front faces lie in one plane. Edges on one line in
-one plane share a key, so only edges with the same key are compared.
+If two edges of one object overlap and their front faces lie in one plane, the common part of the edges is not drawn.
+The object, the plane and the line of an edge form a key, and only edges with the same key are compared.
 """
 
 import math
@@ -21,14 +21,14 @@ _Key = tuple[object, ...]
 
 
 def ghosts(solids: Sequence[Solid], facing: int = 1) -> dict[Name, list[Span]]:
-    """Return the parts of edges that must not be drawn, by edge, as intervals of fractions of the edge.
+    """Return the parts of each edge that must not be drawn, as intervals of fractions of the edge.
 
-    ``facing`` is 1 for front faces, as in the paper, or -1 for back faces, which matter only if hidden lines are drawn.
+    ``facing`` is 1 for front faces, as in the paper, or -1 for back faces, which are needed only to draw hidden lines.
     """
     # Only an object of at least two polyhedra has ghost lines.
     parts = Counter(solid.polyhedron.thing for solid in solids if solid.polyhedron.thing)
-    # Group the edges by object, plane of a front face, and line of the image. In one plane, edges on one line of the
-    # image are on one line in space.
+    # Group the edges by object, plane of a face, and line of the image. If edges in one plane have images on one line,
+    # they are on one line in space.
     lines: dict[_Key, list[Name]] = defaultdict(list)
     for solid in solids:
         if parts[solid.polyhedron.thing] < 2:
@@ -55,7 +55,7 @@ def ghosts(solids: Sequence[Solid], facing: int = 1) -> dict[Name, list[Span]]:
 
 
 def _shared(solids: Sequence[Solid], name: Name, partner: Name) -> Span | None:
-    """Return the part of an edge that another edge in the same line covers, as an interval, or None."""
+    """Return the part of an edge that another edge on the same line covers, as an interval, or None."""
     a, b = (solids[name[0]].points[place] for place in name[1:])
     ends = sorted(_fraction(a, b, solids[partner[0]].points[place]) for place in partner[1:])
     low, high = max(ends[0], Fraction(0)), min(ends[1], Fraction(1))
@@ -63,7 +63,7 @@ def _shared(solids: Sequence[Solid], name: Name, partner: Name) -> Span | None:
 
 
 def _fraction(a: Homogeneous, b: Homogeneous, c: Homogeneous) -> Fraction:
-    """Return the position of c on the line from a to b, as a fraction of that distance in space."""
+    """Return the position of c on the line from a to b in space, as a fraction of the distance from a to b."""
     axis = 0 if a[0] * b[3] != b[0] * a[3] else 1
     at_a, at_b = a[axis] * c[3] - c[axis] * a[3], b[axis] * c[3] - c[axis] * b[3]
     return Fraction(at_a, at_a - at_b)

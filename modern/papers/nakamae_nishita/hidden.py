@@ -1,4 +1,4 @@
-"""Draw a scene with hidden lines removed: the complete method, whose third step is in sections 3.2 to 3.5."""
+"""Draw a scene with hidden lines removed: the paper's complete method, with its third step from sections 3.2 to 3.5."""
 
 import math
 import time
@@ -18,17 +18,17 @@ from modern.papers.nakamae_nishita.projection import Observer
 from modern.papers.nakamae_nishita.solids import Solid, solid
 
 ENCLOSED, TOUCHING, ENDS, GHOSTS = "enclosed", "touching", "ends", "ghosts"
-# Refinements that can be switched off to show their effect. The first three close gaps of the paper. ``enclosed``:
-# a segment entirely within a nearer contour has no intersection, so section 3.5 does not count it. ``touching``:
-# formulas (4) and (5) may both be 0 for polyhedra that touch, and a separating plane decides. ``ends``: d is -2 or -1
-# if a segment ends on a contour or runs through its vertex, which formula (6) does not cover. ``ghosts``: the paper's
-# own section 3.4.
+# Refinements that can be switched off to show their effect. The first three close gaps of the paper.
+# ``enclosed``: a segment entirely within a nearer contour has no intersection, so section 3.5 would not hide it.
+# ``touching``: if polyhedra touch, formulas (4) and (5) may both be 0, and a separating plane decides.
+# ``ends``: if a segment ends on a contour or runs through its vertex, d is -2 or -1, and formula (6) does not apply.
+# ``ghosts``: ghost lines are omitted, as the paper requires in section 3.4.
 REFINEMENTS = (ENCLOSED, TOUCHING, ENDS, GHOSTS)
 
 
 @dataclass(frozen=True, slots=True)
 class Relation:
-    """Two polyhedra V and V' that overlap in the picture: their numbers, their tables, and which one is nearer.
+    """Two polyhedra V and V' that overlap in the picture: their numbers ``v`` and ``w``, and their tables.
 
     ``nearer`` is 1 if V is nearer, -1 if V' is nearer, otherwise 0. ``by`` is the criterion that decided.
     """
@@ -60,9 +60,9 @@ class Piece:
 class Passages:
     """The course of one segment behind all nearer polyhedra.
 
-    ``solid`` and ``segment`` are the numbers of the polyhedron and of its segment. ``behind`` lists the passage of the
-    segment behind each nearer polyhedron, with the number of that polyhedron. ``ghosts`` lists the parts of the segment
-    that are ghost lines.
+    ``solid`` is the number of the polyhedron, and ``segment`` that of its segment. ``behind`` has pairs of the number
+    of a nearer polyhedron and the passage of the segment behind it. ``ghosts`` has the parts of the segment that are
+    ghost lines.
     """
 
     solid: int
@@ -78,10 +78,11 @@ class Passages:
 
 @dataclass(frozen=True, slots=True)
 class Drawing:
-    """The result of hidden line elimination: the visible and hidden pieces of all edges.
+    """The result of hidden line elimination: the visible and hidden pieces of all edges, and intermediate results.
 
     ``seconds`` are the times of the paper's three steps: creating the polyhedra, classifying edges, eliminating hidden
-    lines. ``cut`` and ``behind`` name the polyhedra that the near plane clips and those behind it, which are omitted.
+    lines. ``cut`` names the polyhedra that the near plane clips, and ``behind`` the polyhedra on its near side, which
+    are omitted.
     """
 
     observer: Observer
@@ -95,7 +96,7 @@ class Drawing:
 
     @property
     def counts(self) -> tuple[int, int, int, int]:
-        """The numbers of polyhedra, vertices, faces and points of figures, which are columns of the paper's Table 1."""
+        """The numbers of polyhedra, vertices, faces and points of figures, the columns of the paper's Table 1."""
         polyhedra = [item.polyhedron for item in self.solids]
         return (
             len(polyhedra),
@@ -112,14 +113,15 @@ def draw(
     hidden: bool = False,
     check: bool = True,
 ) -> Drawing:
-    """Draw a scene of convex polyhedra with the hidden lines removed.
+    """Return the drawing of a scene of convex polyhedra with the hidden lines removed.
 
-    ``made`` may be a function that creates the polyhedra, which is then timed as the first step. ``without`` names the
-    ``REFINEMENTS`` to switch off. With ``hidden``, hidden parts and edges between back faces become pieces that are not
-    visible. With ``check``, polyhedra with overlapping contours are proved not to intersect.
+    ``made`` may be a function that creates the polyhedra. The time of this function is then that of the first step.
+    ``without`` names the ``REFINEMENTS`` to switch off. With ``hidden``, the drawing has hidden pieces too: hidden
+    parts of edges, and edges between back faces. With ``check``, all polyhedra with overlapping contours are proved not
+    to intersect.
 
-    Raise SceneError if polyhedra intersect, if one is not entirely in front of the observation point and there is no
-    near plane, or if a name in ``without`` is unknown.
+    Raise SceneError if polyhedra intersect, if a polyhedron is not entirely in front of the observation point and there
+    is no near plane, or if a name in ``without`` is unknown.
     """
     unknown = sorted(set(without) - set(REFINEMENTS))
     if unknown:
@@ -171,17 +173,17 @@ def _relations(
 ) -> Iterator[tuple[Relation, Values, Values]]:
     """Yield the pairs of polyhedra with overlapping contours.
 
-    Each pair is yielded with the values of formula (1) for the contour of each polyhedron at the points of the other.
+    Each pair is yielded with the values of formula (1) for each contour at the points of the other polyhedron.
     """
     contours = [item.images[: len(item.contour)] for item in solids]
-    # Property 1 of section 3.2 rejects a pair as soon as all points are outside of one segment of a contour.
+    # By property 1 of section 3.2, contours do not overlap if all points of one are outside a segment of the other.
     for first, second in overlapping(boxes(contours)):
         v, w = solids[first], solids[second]
         of_v = values(v.lines, w.images)
         of_w = values(w.lines, v.images) if of_v is not None else None
         if of_v is None or of_w is None:
             continue
-        # Formulas (2) and (3): the signs at the contours' vertices, which come first among the points.
+        # Formulas (2) and (3): the signs at the vertices of the contours, which come first among the points.
         m, n = len(v.contour), len(w.contour)
         pair = tables([column[:n] for column in of_v], [row[:m] for row in of_w])
         nearer, by = by_formulas(v, w, pair, of_v, of_w)
@@ -200,7 +202,7 @@ def _relations(
 def _pass(
     behind: list[list[tuple[int, Passage]]], far: Solid, near: Solid, of_near: Values, without: Collection[str]
 ) -> None:
-    """Record where the segments of the farther polyhedron pass behind the nearer one."""
+    """Add to ``behind`` the passage of each segment of the farther polyhedron behind the nearer polyhedron."""
     contour = near.images[: len(near.contour)]
     for course, segment in zip(behind, far.segments, strict=True):
         if ENDS in without:
@@ -215,16 +217,16 @@ def _pass(
 def _pieces(
     solids: Sequence[Solid], passages: Passages, back_ghosts: dict[Name, list[Span]], hidden: bool
 ) -> Iterator[Piece]:
-    """Yield the pieces of a segment.  A piece is visible if no contour hides it: the paper's indices then add
-    up to 0.
+    """Yield the pieces of a segment. A piece is visible if no contour hides it, so that the paper's indices add up to
+    0.
 
-    Ghost parts are omitted from visible and hidden pieces, ghosts between back faces only from hidden pieces.
+    Ghost lines between front faces are omitted from all pieces, ghost lines between back faces from hidden pieces.
     """
     segment = solids[passages.solid].segments[passages.segment]
     if not passages.behind and not passages.ghosts:
         yield Piece(passages.solid, segment.start, segment.end, _START, _END, True)
         return
-    # A mark is a fraction of the edge with the changes of the three counters there.
+    # A mark is a point of the edge, as a fraction of its length, with the changes of three counters at this point.
     marks: list[tuple[Fraction, int, int, int]] = [(_END, 0, 0, 0)]
     marks += [(place, index, 0, 0) for _, passage in passages.behind for place, index in passage.marks]
     for low, high in passages.ghosts:

@@ -1,7 +1,7 @@
 """Decide which of two convex polyhedra that overlap in the picture is nearer (section 3.3, formulas (4) and (5)).
 
-If polyhedra touch, both formulas may give 0. A plane that separates the two then decides: the nearer polyhedron is on
-the eye's side of it. Such a plane also proves that they do not intersect.
+If the polyhedra touch, both formulas may give 0. A plane that separates the polyhedra then decides: the nearer
+polyhedron is on the eye's side of this plane. Such a plane also proves that the polyhedra do not intersect.
 """
 
 from collections.abc import Iterator
@@ -21,12 +21,13 @@ UNDECIDED: Final = "undecided"
 
 
 def by_formulas(v: Solid, w: Solid, pair: Tables, of_v: Values, of_w: Values) -> tuple[int, By]:
-    """Decide by the paper's formulas (4) and (5) which of the polyhedra V and V' is nearer.
+    """Decide by the paper's formulas (4) and (5) which of the polyhedra V (``v``) and V' (``w``) is nearer.
 
-    Return 1 if V is nearer, -1 if V' is nearer, 0 if undecided, and the formula that decided. ``of_v`` holds formula
-    (1) of V's segments at the points of V', and ``of_w`` that of the segments of V' at the points of V.
+    Return 1 if V is nearer, -1 if V' is nearer or 0 if undecided, and the formula that decided. ``of_v`` has formula
+    (1) of the contour segments of V at the points of V', and ``of_w`` that of the contour segments of V' at the points
+    of V.
     """
-    # Formula (4): at an intersection of the contours compare the depths of the two points with that image.
+    # Formula (4): at an intersection of the contours compare the depths of the two points that have it as their image.
     for i, j in pair.crossings():
         # dr = (P1 - P0).(P1 - P2) is negative if P1, on V, is nearer than P2, on V'. The two points have one image, and
         # the eye P0 is at infinity on the z axis, so P1 - P0 points along -z.
@@ -34,7 +35,7 @@ def by_formulas(v: Solid, w: Solid, pair: Tables, of_v: Values, of_w: Values) ->
         dr = sign(q[2] * p[3] - p[2] * q[3])
         if dr:
             return -dr, BY_CROSSING
-    # Formula (5): if one contour encloses the other, test the inner vertices against the face around them.
+    # Formula (5): if one contour encloses the other, test a vertex of the inner contour against the face around it.
     for outer, inner, encloses, which in ((v, w, pair.encloses, -1), (w, v, pair.enclosed, 1)):
         if encloses:
             # If a vertex touches the face around it, formula (5) is 0. Another vertex then decides.
@@ -48,7 +49,7 @@ def by_formulas(v: Solid, w: Solid, pair: Tables, of_v: Values, of_w: Values) ->
 def crossing(solid: Solid, order: int, values: list[int]) -> Homogeneous:
     """Return the point of a contour segment at which the given values, linear along the segment, are zero.
 
-    ``values`` holds formula (1) of a line at all points of the solid; ``order`` numbers the contour segment.
+    ``values`` has formula (1) of a line at all points of the solid. ``order`` is the index of the contour segment.
     """
     after = (order + 1) % len(solid.contour)
     p, q = solid.images[order], solid.images[after]
@@ -58,14 +59,16 @@ def crossing(solid: Solid, order: int, values: list[int]) -> Homogeneous:
 
 
 def by_plane(v: Solid, w: Solid) -> tuple[int, Plane | None]:
-    """Decide by a separating plane which of V and V' is nearer: return 1 for V, -1 for V', and the plane.
+    """Decide by a separating plane which of the polyhedra V and V' is nearer.
 
-    The plane is None if the polyhedra intersect. The first number is 0 for two plates in one plane.
+    Return 1 for V, -1 for V' or 0 for two plates in one plane, and the separating plane. The plane is None if the
+    polyhedra intersect.
     """
     # If any plane separates two convex polyhedra, then the plane of a face does, or a plane through an edge of one
     # and a vertex of the other. Upright planes (plane[2] == 0) do not order the two in depth.
     for owner, opposite, which in ((v, w, -1), (w, v, 1)):
-        # The other polyhedron must lie on the outer side. For a plate, one of its points must also be off the plane.
+        # The opposite polyhedron must lie on the outer side. If the owner is a plate, a point must also be off the
+        # plane.
         for plane in owner.planes:
             least, greatest = _range(plane, opposite.vertices)
             if plane[2] and least >= 0 and (greatest > 0 or len(owner.planes) > 2):

@@ -26,9 +26,10 @@ MOST = 20_000
 class Part:
     """A shape, its placement in the scene, and the number of its copies.
 
-    ``build`` creates the shape at the origin under a given name. ``thing`` names the object that all copies belong to.
-    ``figures`` are in the coordinates of the shape. The shape is scaled, then rotated by ``turn`` degrees about the z
-    axis, then moved by ``at``. ``count`` is the number of copies along x, y and z, at distances ``step``.
+    ``place`` names the part in messages. The function ``build`` creates the shape at the origin with the name that it
+    receives. ``thing`` names the object to which all copies belong. ``figures`` are in the coordinates of the shape.
+    The shape is multiplied by ``scale``, then rotated by ``turn`` degrees about the z axis, then moved by ``at``.
+    ``count`` has the numbers of copies along x, y and z, and ``step`` the distances between them.
     """
 
     place: str
@@ -44,7 +45,7 @@ class Part:
 
 @dataclass(frozen=True, slots=True)
 class Parts:
-    """The contents of one table of a scene file: parts, the path of their file (or empty), and notes for the user."""
+    """The contents of one table of a scene file: parts, the path of their file or "", and notes for the user."""
 
     parts: tuple[Part, ...]
     file: str = ""
@@ -52,7 +53,10 @@ class Parts:
 
 
 def part(fields: Fields, folder: str = "") -> Parts:
-    """Read one table of a scene file.  Paths of files are relative to ``folder``.  Raise EmulatorError."""
+    """Return the parts that one table of a scene file defines. Paths of files are relative to ``folder``.
+
+    Raise EmulatorError if a field or a file is invalid.
+    """
     name = fields.text("name", "")
     place = f"{fields.place} ({name})" if name else fields.place
     if "file" in fields:
@@ -84,7 +88,7 @@ def part(fields: Fields, folder: str = "") -> Parts:
 
 
 def _from_file(fields: Fields, folder: str, place: str) -> Parts:
-    """Read the connected components of a file with faces; with ``hull = true`` also the hull of a file with points."""
+    """Return the connected components of a file with faces, or with ``hull = true`` the hull of a file of points."""
     path = fields.text("file", "")
     within = fields.take("coplanar_within")
     hull = fields.flag("hull")
@@ -103,7 +107,7 @@ def named(polyhedron: Polyhedron, name: str) -> Polyhedron:
 
 
 def make(item: Part) -> Iterator[Polyhedron]:
-    """Create all copies of a part at their places.  Raise SceneError for an invalid shape or figure."""
+    """Yield all copies of a part at their places. Raise SceneError for an invalid shape or figure."""
     shape = item.build(item.place)
     figures = tuple(_figure(item.place, shape, corners) for corners in item.figures)
     shape = replace(shape, thing=item.thing, figures=figures)
@@ -116,7 +120,7 @@ def make(item: Part) -> Iterator[Polyhedron]:
 
 
 def _figure(place: str, shape: Polyhedron, corners: tuple[Vector, ...]) -> Figure:
-    """Find the face on which a figure lies.  On a plate, that is the side from which its corners run clockwise."""
+    """Return a figure with the index of the face that contains all its corners. Raise SceneError if there is none."""
     if len(corners) < 3:
         raise SceneError(f"{place}: figures: expected at least 3 corners, found {len(corners)}")
     for order, face in enumerate(shape.faces):

@@ -1,9 +1,8 @@
-"""Write a drawing as SVG, as HPGL for a plotter, or as text with intermediate results and a row of the paper's
-Table 1.
+"""Write a drawing as SVG, as HPGL for a plotter, or as text with intermediate results and the paper's Table 1.
 
-HPGL is the language of Hewlett-Packard's plotters: pen up, pen down and absolute moves (instructions IN SP LT PU PD).
-The drawing consists of straight strokes, one for each visible piece. Where parts of objects touch, a line that belongs
-to both may be drawn twice.
+HPGL is the language of Hewlett-Packard's plotters. The drawing uses its instructions IN, SP, LT, PU (move with the pen
+up) and PD (move with the pen down). It consists of straight strokes, one for each piece. If objects touch, a line that
+belongs to both may be drawn twice.
 """
 
 from collections import Counter
@@ -23,16 +22,16 @@ from modern.papers.nakamae_nishita.projection import Homogeneous, image
 Point = tuple[int, int]
 Stroke = tuple[Point, Point]
 
-# An area, in plotter units of 0.025 mm, that fits a sheet of A4 on all plotters that read HPGL.
+# The size of the plot in plotter units of 0.025 mm. It fits a sheet of A4 on all plotters that read HPGL.
 PLOT_WIDTH, PLOT_HEIGHT = 10_000, 7_200
 
 SOLID, DASHED = "LT;", "LT2,2;"
 
 
 def plot(groups: Iterable[tuple[str, Iterable[Stroke]]]) -> str:
-    """Return strokes as the text of an HPGL plot.  Each group of strokes has a line type.
+    """Return groups of strokes, each with a line type, as the text of an HPGL plot.
 
-    The pen stays down if a stroke begins at the end of the previous one.
+    The pen stays down if a stroke begins at the end of the previous stroke.
     """
     lines = ["IN;", "SP1;"]
     for kind, strokes in groups:
@@ -64,8 +63,9 @@ def ends(drawing: Drawing, piece: Piece) -> tuple[Homogeneous, Homogeneous]:
 def as_svg(drawing: Drawing, title: str = "", width: int = 640) -> str:
     """Return a drawing as the text of an SVG file.
 
-    The attribute ``data-edge`` of a line names its polyhedron and the two vertices of its edge, from 1. The numbers of
-    figures' corners follow those of the vertices. Raise ExportError for a width out of range.
+    The attribute ``data-edge`` of a line has the number of its polyhedron and the numbers of the two vertices of its
+    edge, all from 1. The corners of figures are numbered after the vertices. Raise ExportError for a width out of
+    range.
     """
     pixel, height = fit(_extent(drawing), checked_width(width), int(width * _HIGHEST_SHAPE))
 
@@ -107,7 +107,7 @@ def _strokes(drawing: Drawing, pixel: Callable[[Flat], Pixel], visible: bool) ->
 
 
 def _extent(drawing: Drawing) -> list[Flat]:
-    """Return the positions of all vertices in the picture, so that its scale does not depend on what is hidden."""
+    """Return the positions of all vertices, hidden or not, which determine the scale of the picture."""
     return [image(point, drawing.observer) for item in drawing.solids for point in item.vertices]
 
 
@@ -121,7 +121,7 @@ _KINDS: tuple[Kind, ...] = get_args(Kind)
 
 
 def table1(drawing: Drawing) -> Iterator[str]:
-    """Yield the heading and the row of the paper's Table 1 for a drawing, with the seconds that its steps took here."""
+    """Yield the heading and the row of the paper's Table 1 for a drawing, with the measured times of its steps."""
     counts = drawing.counts
     yield "polyhedra  vertices  faces  points       I      II     III  (seconds)"
     times = "".join(f"{seconds:8.3f}" for seconds in drawing.seconds)
@@ -129,7 +129,7 @@ def table1(drawing: Drawing) -> Iterator[str]:
 
 
 def tables(drawing: Drawing) -> Iterator[str]:
-    """Yield intermediate results as text: polyhedra, overlapping pairs, segments behind a contour."""
+    """Yield intermediate results as text: the polyhedra, the overlapping pairs, and the segments behind a contour."""
     for solid in drawing.solids:
         kinds = Counter(edge.kind for edge in solid.edges)
         yield f"{solid.number + 1}. {solid.polyhedron.name}"

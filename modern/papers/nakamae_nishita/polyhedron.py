@@ -1,7 +1,6 @@
 """Convex polyhedra in the paper's form (section 2): vertices, and faces as vertex numbers, clockwise from outside.
 
-A plate is a polyhedron without thickness: one polygon as two faces, one for each side. Polyhedra come from scenes, from
-files with faces (``bodies``) and from hulls.
+A plate is a polyhedron without thickness: one polygon as two faces, one for each side.
 """
 
 from collections import Counter
@@ -14,7 +13,7 @@ from modern.geometry.vectors import N, Vector, area_vector, cross, dot, lowest, 
 
 
 class SceneError(EmulatorError):
-    """Raised if a scene cannot be drawn: a file, a shape or the arrangement is invalid.  The message is one line."""
+    """Raised if a scene cannot be drawn because a file, a shape or the arrangement is invalid."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,9 +28,9 @@ class Figure:
 class Polyhedron:
     """A convex polyhedron.
 
-    ``thing`` names the object of which it is a part; lines that only divide an object are not drawn. ``joined`` has a
-    group number for each face, and no edge is drawn between faces of one group (``modern.geometry.coplanar``). If it is
-    empty, no faces are merged.
+    ``thing`` names the object of which the polyhedron is a part. Lines that only divide a face of an object are not
+    drawn. ``joined`` has a group number for each face, or is empty. No edge is drawn between faces of one group
+    (``modern.geometry.coplanar``).
     """
 
     name: str
@@ -50,7 +49,7 @@ def outward(polyhedron: Polyhedron, face: tuple[int, ...]) -> Vector:
 def checked(polyhedron: Polyhedron) -> Polyhedron:
     """Prove that a polyhedron is closed and convex, and return it with its faces clockwise as seen from outside.
 
-    Raise SceneError with the names of the polyhedron and of the invalid face or edge.
+    Raise SceneError otherwise. The message names the polyhedron and the invalid face or edge.
     """
     name, points, faces = polyhedron.name, polyhedron.vertices, polyhedron.faces
     if not faces:
@@ -71,8 +70,8 @@ def checked(polyhedron: Polyhedron) -> Polyhedron:
 def open_faults(
     faces: Mapping[int, Sequence[int]], points: Mapping[int, Vector], edge_name: Callable[[int, int], str]
 ) -> Iterator[str]:
-    """Yield the reasons why faces do not form a closed surface.  Faces and points in messages count from 1."""
-    # In a closed surface every edge is followed once in each direction, by the two faces it belongs to.
+    """Yield the reasons why faces do not form a closed surface. Messages count faces and points from 1."""
+    # In a closed surface every edge belongs to two faces, which follow it in opposite directions.
     directed: Counter[tuple[int, int]] = Counter()
     for order, face in faces.items():
         if len(face) < 3 or len(set(face)) < len(face):
@@ -93,13 +92,13 @@ def open_faults(
 
 
 def _faults(polyhedron: Polyhedron) -> Iterator[str]:
-    """Yield the reasons why a closed surface is not a convex solid, or a plate, with faces clockwise from outside."""
+    """Yield the reasons why a closed surface is not a convex solid or plate with faces clockwise from outside."""
     points, faces = polyhedron.vertices, polyhedron.faces
     _, integers = whole(points)
     flat = True
     for order, face in enumerate(faces, 1):
         normal = outward(polyhedron, face)
-        # The height of every vertex over the plane of the face, in integers. All are at most 0 for a convex solid.
+        # The heights of all vertices over the plane of the face, in integers. They are at most 0 for a convex solid.
         a, b, c = lowest(normal)
         level = dot((a, b, c), integers[face[0]])
         heights = [a * x + b * y + c * z - level for x, y, z in integers]
@@ -130,5 +129,5 @@ def turns_once(points: Sequence[tuple[N, N, N]], normal: tuple[N, N, N]) -> bool
     bends = [dot(cross(steps[a], steps[b]), up) for a, b in lines]
     if any(bend < 0 for bend in bends) or not all(map(any, steps)):
         return False
-    # A polygon that turns left at all corners may run around twice. Then a corner is to the right of a side.
+    # A polygon that turns left at all corners may still run around twice. Then a corner is to the right of a side.
     return all(dot(cross(steps[a], minus(q, corners[a])), up) >= 0 for a, _ in lines for q in corners)

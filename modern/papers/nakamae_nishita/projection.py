@@ -1,9 +1,10 @@
 """Project points in parallel or in perspective, with exact integers.
 
-Both are maps to homogeneous coordinates, (x, y, z, w) for the point (x/w, y/w, z/w), after which the eye is at infinity
-on the z axis and z grows towards it. In parallel projection w is the common denominator of a polyhedron's coordinates.
-In perspective w is proportional to the distance from the eye's plane, and z/w to its inverse. Both maps preserve
-planes, lines and the sense of rotation, so formulas (1) to (6) of the paper hold for the mapped coordinates.
+Both projections map points to homogeneous coordinates: (x, y, z, w) is the point (x/w, y/w, z/w). After the map, the
+eye is at infinity on the z axis, and z grows towards the eye. In parallel projection w is the common denominator of a
+polyhedron's coordinates. In perspective w is proportional to the distance of the point from the eye along the direction
+of view, and z/w to the inverse of this distance. Both maps preserve planes, lines and the sense of rotation, so
+formulas (1) to (6) of the paper hold for the mapped coordinates.
 """
 
 from collections.abc import Sequence
@@ -19,20 +20,21 @@ Homogeneous = tuple[int, int, int, int]
 
 @dataclass(frozen=True, slots=True)
 class Observer:
-    """The viewpoint of a scene: ``eye`` is the direction to the eye, ``point`` the eye itself in perspective."""
+    """The viewpoint of a scene: the direction to the eye, the axes of the picture, and in perspective the eye."""
 
     eye: Eye
     right: Eye
     up: Eye
+    # The position of the eye, or None in parallel projection.
     point: Vector | None = None
-    # The factor that brings x of the image to the scale of y: the length of ``eye``, to 15 decimals.
+    # The length of ``eye`` to 15 decimals. x of the image, multiplied by it, has the same scale as y.
     stretch: Fraction = Fraction(1)
     # The distance of the near plane from the eye in perspective, along the direction of view.
     near: Fraction | None = None
 
 
 def parallel(direction: Sequence[Fraction | int]) -> Observer:
-    """Return the observer who looks from infinity in a direction.  Raise SceneError for 0,0,0."""
+    """Return the observer at infinity in a direction. Raise SceneError for the direction 0,0,0."""
     if not any(direction):
         raise SceneError("expected a direction of view other than 0,0,0")
     sight = view(lowest([Fraction(number) for number in direction]))
@@ -48,12 +50,12 @@ def perspective(point: Vector, towards: Vector, near: Fraction | None = None) ->
 
 
 def project(polyhedron: Polyhedron, observer: Observer, origin: Vector) -> list[Homogeneous]:
-    """Return the homogeneous images of a polyhedron's vertices, then of the corners of the figures drawn on its faces.
+    """Return the homogeneous images of a polyhedron's vertices, then of the corners of the figures on its faces.
 
     If A and B are the images of the ends of an edge, the point at the fraction s of the edge has the image
-    (1 - s) A + s B. In parallel projection ``origin`` is subtracted from all points of a scene to keep numbers short.
+    (1 - s) A + s B. In parallel projection ``origin`` is subtracted from all points, to keep the integers short.
 
-    Raise SceneError if a part of the polyhedron lies next to or behind the observation point.
+    Raise SceneError if a part of the polyhedron is not in front of the observation point.
     """
     points = [*polyhedron.vertices, *(corner for figure in polyhedron.figures for corner in figure.corners)]
     centre = observer.point or origin
@@ -65,8 +67,8 @@ def project(polyhedron: Polyhedron, observer: Observer, origin: Vector) -> list[
         (right[0] * x + right[1] * y + right[2] * z, up[0] * x + up[1] * y + up[2] * z, dot(eye, (x, y, z)))
         for x, y, z in away
     ]
-    # A point at the fraction s of an edge is the same combination of the mapped ends. In parallel projection w is one
-    # denominator for all points. In perspective, division by the distance -z makes lines of sight parallel.
+    # In parallel projection w is one denominator for all points. In perspective the division by the distance -z makes
+    # lines of sight parallel.
     if observer.point is None:
         return [(x, y, z, scale) for x, y, z in flat]
     if any(z >= 0 for _, _, z in flat):
@@ -77,5 +79,5 @@ def project(polyhedron: Polyhedron, observer: Observer, origin: Vector) -> list[
 
 
 def image(point: Homogeneous, observer: Observer) -> tuple[Fraction, Fraction]:
-    """Return a projected point's position in the picture, with equal scales on both axes and y upwards."""
+    """Return the position of a projected point in the picture, with y upwards and one scale for both axes."""
     return Fraction(point[0], point[3]) * observer.stretch, Fraction(point[1], point[3])

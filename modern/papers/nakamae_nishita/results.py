@@ -18,7 +18,7 @@ _OTHER_SIDE = (Fraction(-34), Fraction(37), Fraction(41))
 
 
 def produced(_: Lines) -> Lines:
-    """Compute the lines of each published result that can be computed, keyed by its id."""
+    """Return the lines of each published result that can be computed, by the result's id in ``results.toml``."""
     lines: dict[str, Sequence[str]] = dict(_crossing_numbers())
     drawings = {name: drawing(name) for name in names()}
     most = max(
@@ -36,13 +36,13 @@ def produced(_: Lines) -> Lines:
 
 
 def drawing(name: str) -> Drawing:
-    """Draw one of the project's scenes as seen from its own direction."""
+    """Draw one of the project's scenes as seen from the direction that the scene states."""
     file = scene(name)
     return draw(file.make, file.sight.observer(file.make))
 
 
 def contour_tables(v: Sequence[Place], w: Sequence[Place]) -> Tables:
-    """Compute the paper's tables PL and LP for two overlapping polygons, whose corners run clockwise."""
+    """Return the paper's tables PL and LP for two overlapping polygons whose corners run clockwise."""
     of_v, of_w = values(_lines(v), _points(w)), values(_lines(w), _points(v))
     assert of_v is not None
     assert of_w is not None
@@ -50,11 +50,10 @@ def contour_tables(v: Sequence[Place], w: Sequence[Place]) -> Tables:
 
 
 def _crossing_numbers() -> Iterator[tuple[str, Sequence[str]]]:
-    """Compute d of formula (3), which tells how two segments meet, for the four cases that the paper lists.
+    """Compute d of formula (3), which tells how two segments meet, for the four cases that section 3.2 lists.
 
-    One segment is a side of a square, from (0, 4) to (4, 4). The other one is the first side of a polygon.
+    One segment is a side of a square, from (0, 4) to (4, 4). The other segment is the first side of a polygon.
     """
-    # Section 3.2 lists four positions of two segments. The first side of each polygon and the square's side are in one.
     upper = 1
     for name, meaning, polygon in (
         ("d-crossing", "means that $[P_i, P_{i+1}]$ intersects", ((2, 2), (2, 6), (6, 6), (6, 2))),
@@ -66,9 +65,10 @@ def _crossing_numbers() -> Iterator[tuple[str, Sequence[str]]]:
 
 
 def _contour_sense() -> str:
-    """Decide an ambiguity of the print by computation: the direction in which formula (6) traverses a contour.
+    """Return the difference of a contour's points whose product with P_A - P_B has the sign of the index of formula
+    (6).
 
-    Return the difference of the contour's points whose product with P_A - P_B has the sign of the formula's index.
+    The print does not tell in which direction formula (6) traverses a contour, so this is found by computation.
     """
     start, end, a, b = (0, 0), (0, 4), (-1, 1), (1, 2)
     # The segment from A to B crosses the square's left side inward, so formula (6) must be positive.

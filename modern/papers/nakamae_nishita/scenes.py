@@ -1,8 +1,7 @@
-"""Read scene files: TOML files that list parts, each with a standard shape and its placement (section 2 of the
-paper).
+"""Read scene files: TOML files that list parts, each with a standard shape and its placement (section 2 of the paper).
 
-All numbers are exact: integers, decimals, and fractions written as text, such as "1/3". The format is described in
-``docs/papers/nakamae_nishita.md``. The project's own scenes are in the folder ``scenes`` and are selected by name.
+All numbers are exact: integers, decimals, or fractions as text, such as "1/3". ``docs/papers/nakamae_nishita.md``
+describes the format. The project's own scenes are in the folder ``scenes`` and are selected by name.
 """
 
 import os
@@ -34,8 +33,8 @@ _AT = re.compile(r"(.*) \(at (?:line (\d+), column (\d+)|end of document)\)", re
 class Sight:
     """The view of a scene.
 
-    ``eye`` is the direction to the eye, or the observation point in perspective. In perspective, ``towards`` is the
-    point looked at (by default the centre of the scene) and ``near`` the distance of the near plane, if there is one.
+    ``eye`` is the direction to the eye, or in perspective the observation point. In perspective, ``towards`` is the
+    point looked at (by default the centre of the scene), and ``near`` the distance of the near plane, if there is one.
     """
 
     eye: Vector
@@ -44,7 +43,10 @@ class Sight:
     near: Fraction | None = None
 
     def observer(self, make: Callable[[], Sequence[Polyhedron]]) -> Observer:
-        """Return the viewpoint. ``make`` creates the polyhedra if needed.  Raise SceneError for 0,0,0."""
+        """Return the observer. The function ``make`` creates the polyhedra, if the centre of the scene is needed.
+
+        Raise SceneError if the direction of view is 0,0,0.
+        """
         if self.projection == PARALLEL:
             return parallel(self.eye)
         return perspective(self.eye, self.towards or _middle(make()), self.near)
@@ -54,7 +56,7 @@ class Sight:
 class SceneFile:
     """A scene as read from a file. ``make`` creates its polyhedra, which is the first of the paper's three steps.
 
-    ``files`` lists the files of its parts, and ``notes`` describes how they were converted to convex polyhedra.
+    ``files`` lists the files of the scene's parts, and ``notes`` are notes for the user on these files.
     """
 
     source: str
@@ -91,7 +93,7 @@ def read(path: str) -> SceneFile:
 
 
 def of_polyhedra(polyhedra: Sequence[Polyhedron], title: str, notes: Sequence[str] = ()) -> SceneFile:
-    """Return a scene of these polyhedra, seen from a direction that shows their faces and vertices clearly."""
+    """Return a scene of the given polyhedra, seen from a direction that shows their faces and vertices clearly."""
     # Two solids that touch may have a vertex in common.
     points = list(dict.fromkeys(point for polyhedron in polyhedra for point in polyhedron.vertices))
     eye = choose(points, [outward(polyhedron, face) for polyhedron in polyhedra for face in polyhedron.faces])
@@ -101,7 +103,10 @@ def of_polyhedra(polyhedra: Sequence[Polyhedron], title: str, notes: Sequence[st
 
 
 def parse(text: str, source: str, folder: str = "") -> SceneFile:
-    """Read a scene from the text of its file.  Paths in it are relative to ``folder``.  Raise SceneError."""
+    """Return the scene in the text of a scene file. Paths in the text are relative to ``folder``.
+
+    Raise SceneError if the text is invalid.
+    """
     try:
         # TOML floats are read as exact decimals. TOML allows underscores between digits.
         data = parse_toml(text, lambda decimal: number(decimal.replace("_", "")))

@@ -1,6 +1,7 @@
 """Create and place the paper's standard shapes: parallelepiped, column and polygonal plate (section 2).
 
-All coordinates are fractions. Cosine and sine of a rotation are fractions too, so a rotated shape is exactly congruent.
+All coordinates are fractions. The cosine and sine of a rotation are fractions too, so a rotated shape is exactly
+congruent with the original.
 """
 
 import math
@@ -33,8 +34,8 @@ def cuboid(name: str, x: Fraction, y: Fraction, z: Fraction) -> Polyhedron:
 def column(name: str, base: Sequence[Vector], along: Vector) -> Polyhedron:
     """Return the prism over a convex polygon. Its vertices are those of the base, then those of the top.
 
-    The base may run in either direction. Raise SceneError if it is not a plane convex polygon or ``along`` is in its
-    plane.
+    The base may run in either direction. Raise SceneError if the base is not a plane convex polygon or ``along`` is in
+    its plane.
     """
     normal = _normal(name, base)
     rise = dot(normal, along)
@@ -106,10 +107,10 @@ def placed(polyhedron: Polyhedron, move: Move, name: str) -> Polyhedron:
 
 
 def _normal(name: str, corners: Sequence[Vector]) -> Vector:
-    """Return a normal of a convex polygon.  Seen from its tip, the corners run counterclockwise."""
+    """Return the normal of a convex polygon from whose tip the corners are seen to run counterclockwise."""
     if len(corners) < 3:
         raise SceneError(f"{name}: expected at least 3 corners, found {len(corners)}")
-    # The first corner that is not in line with its neighbours gives the normal, in the right sense if it is convex.
+    # The first corner that is not in line with its neighbours determines the normal, and its sense if it is convex.
     ring = [*corners, *corners[:2]]
     bends = [cross(minus(q, p), minus(r, q)) for p, q, r in zip(ring, ring[1:], ring[2:], strict=False)]
     normal = next((bend for bend in bends if any(bend)), _ZERO)

@@ -19,11 +19,10 @@ Kind = visible.Kind | Literal["figure"]
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """A line that may be visible in the picture: an edge between visible faces, a contour edge, or a side of a
-    figure.
+    """A line that may be visible: an edge between front faces, a contour edge, or a side of a figure on a front face.
 
-    ``start`` and ``end`` are indices of ``Solid.points``, ``first`` and ``last`` the same ends as indices of
-    ``Solid.used``. ``faces`` are the front faces at the line.
+    ``start`` and ``end`` are the indices of its ends in ``Solid.points``, and ``first`` and ``last`` the indices of the
+    same ends in ``Solid.used``. ``faces`` are the indices of the front faces at the line.
     """
 
     start: int
@@ -38,10 +37,10 @@ class Segment:
 class Solid:
     """A polyhedron and its projection.
 
-    ``points`` are the images of the vertices, then of the corners of figures. ``signs`` has 1 for each front face.
-    ``contour`` lists the indices of its vertices, clockwise, and ``lines`` the coefficients of formula (1) of its
-    segments. ``planes`` are the coefficients of formula (5) of each face, positive outside. ``used`` lists the indices
-    of all points of segments, those of the contour first.
+    ``points`` are the images of the vertices and then of the corners of figures. ``signs`` has 1 for each front face.
+    ``contour`` lists the indices of the contour's vertices, clockwise, and ``lines`` the coefficients of formula (1) of
+    the contour's segments. ``planes`` has the coefficients of formula (5) of each face, positive outside. ``used``
+    lists the indices of all points of segments, the points of the contour first, and ``images`` has these points.
     """
 
     number: int
@@ -54,7 +53,6 @@ class Solid:
     planes: tuple[Plane, ...]
     segments: tuple[Segment, ...]
     used: tuple[int, ...]
-    # The points of ``used``.
     images: tuple[Homogeneous, ...]
 
     @property
@@ -67,7 +65,7 @@ _DRAWN = (visible.INNER, visible.CONTOUR)
 
 
 def solid(number: int, polyhedron: Polyhedron, observer: Observer, origin: Vector) -> Solid:
-    """Project a polyhedron and classify its faces, edges and contour.  Raise SceneError if it cannot be projected."""
+    """Return a polyhedron's projection, with its faces and edges classified. Raise SceneError if it has none."""
     # Section 3.1: a face is a front face if its image runs clockwise. Its edges are classified by their two faces.
     points = project(polyhedron, observer, origin)
     flat: list[Flat] = [(x, y, w) for x, y, _, w in points]
@@ -83,14 +81,14 @@ def solid(number: int, polyhedron: Polyhedron, observer: Observer, origin: Vecto
         for edge in edges
         if edge.kind in _DRAWN
     ]
-    # A figure is visible if its face is (section 1, merit 4). Its corners follow the vertices in ``points``.
+    # A figure is visible if its face is visible (section 1, merit 4). Its corners follow the vertices in ``points``.
     corner = len(polyhedron.vertices)
     for figure in polyhedron.figures:
         places = range(corner, corner + len(figure.corners))
         corner += len(figure.corners)
         if signs[figure.face] > 0:
             visible_lines += [(a, b, FIGURE, (figure.face,)) for a, b in sides(places)]
-    # Formula (1) is evaluated only at points of segments. Those of the contour come first, for the PL and LP tables.
+    # Formula (1) is evaluated only at the ends of segments. The contour's points come first, for the tables PL and LP.
     used = tuple(dict.fromkeys((*chain, *(place for start, end, *_ in visible_lines for place in (start, end)))))
     where = {place: order for order, place in enumerate(used)}
     lines = tuple(line_through(flat[a], flat[b]) for a, b in (sides(chain) if chain else ()))
@@ -103,9 +101,8 @@ def solid(number: int, polyhedron: Polyhedron, observer: Observer, origin: Vecto
 def plane_through(p: Homogeneous, q: Homogeneous, r: Homogeneous) -> Plane:
     """Return the plane of formula (5) through three projected points, clockwise from outside, or zeros if collinear.
 
-    The coefficients are the cofactors of the last row of the determinant whose rows are the homogeneous coordinates of
-    the three points and of a variable point.  So the determinant is the value of the plane's equation at the variable
-    point.
+    The coefficients are cofactors of a determinant. Its rows are the homogeneous coordinates of the three points and of
+    a variable point, so that its value is the value of the plane's equation at the variable point.
     """
     # The 2 x 2 minors of q and r, each of which occurs in two cofactors.
     xy, xz, xw = q[0] * r[1] - q[1] * r[0], q[0] * r[2] - q[2] * r[0], q[0] * r[3] - q[3] * r[0]
@@ -124,7 +121,7 @@ def height(plane: Plane, p: Homogeneous) -> int:
 
 
 def same_plane(u: Plane, v: Plane) -> bool:
-    """Return True if two planes are equal and have the same outer side."""
+    """Return True if two equations describe the same plane with the same outer side."""
     k = next(k for k in range(4) if u[k])
     return u[k] * v[k] > 0 and all(u[k] * v[n] == v[k] * u[n] for n in range(4))
 
@@ -138,7 +135,7 @@ def _face_plane(corners: Sequence[Homogeneous]) -> Plane:
 
 
 def _merged(edge: Edge, joined: Sequence[int]) -> Edge:
-    """Return an edge, marked as not to be drawn if its two faces were merged and it is not on the contour."""
+    """Return an edge, with the kind ``joined`` if its two faces were merged and it is not on the contour."""
     first, last = edge.faces[0], edge.faces[-1]
     within = edge.kind in (visible.INNER, visible.BACK) and joined[first] == joined[last]
     return replace(edge, kind=visible.JOINED) if within else edge

@@ -1,8 +1,8 @@
 """Yau and Srihari's algorithm for the digital convex hull of a voxel solid that is stored as an octree.
 
-``octree_hull(volume)`` follows the paper step by step. The hull lies between two functions of the column (x, y): the
-convex envelope of the floor (the lowest voxels) and the concave envelope of the ceiling (the highest voxels).
-``Printed`` selects statements to apply as printed although the print is wrong.
+``octree_hull(volume)`` follows the paper step by step. The hull lies between two functions of x and y: the convex
+envelope of the floor (the lowest voxel of each column) and the concave envelope of the ceiling (the highest voxel of
+each column). ``Printed`` selects statements of the paper that are applied as printed although they are wrong.
 
 References
 ----------

@@ -1,8 +1,9 @@
 """Decide exactly if a set of voxels is digitally convex, by the definitions of sections 3.2.2 and 3.2.3.
 
 A digital region is a set of voxels, given as an array of truth values. Definition 3.2.2 requires a voxel of the region
-at the midpoint of any two of its voxels. Definition 3.2.3 requires a convex solid whose image is the half-cell
-expansion of the region. Kim and Rosenfeld's test for it examines the semidigital points on the faces of the hull.
+at the midpoint of any two of its voxels. Definition 3.2.3 requires that the half-cell expansion of the region is the
+image of a convex solid. Kim and Rosenfeld's test for this property examines the semidigital points on the faces of the
+hull.
 """
 
 import math
@@ -26,7 +27,10 @@ def voxels_of(region: Voxels) -> list[Voxel]:
 
 
 def half_cell_expansion(region: Voxels) -> Voxels:
-    """Return E(S), the cells of a lattice shifted by half a cell that meet the region: eight for each voxel (3.2.3)."""
+    """Return the half-cell expansion E(S): the cells of a lattice shifted by half a cell that meet the region (3.2.3).
+
+    Each voxel of the region meets eight such cells.
+    """
     expanded = np.zeros([size + 1 for size in region.shape], dtype=np.bool_)
     for step in product((0, 1), repeat=3):
         expanded[tuple(slice(k, k + size) for k, size in zip(step, region.shape, strict=True))] |= region
@@ -34,7 +38,7 @@ def half_cell_expansion(region: Voxels) -> Voxels:
 
 
 def is_simple(region: Voxels) -> bool:
-    """Return True if a set of voxels is 6-connected and no line along an axis meets it in more than one run (3.2.3)."""
+    """Return True if a set of voxels is simple: 6-connected, and met by each line along an axis in one run (3.2.3)."""
     if components(region) != 1:
         return False
     for axis in range(3):
@@ -46,17 +50,16 @@ def is_simple(region: Voxels) -> bool:
 
 
 def is_midpoint_convex(region: Voxels) -> bool:
-    """Return True if, for any two voxels of a region, one of their midpoint voxels belongs to it too (3.2.2)."""
+    """Return True if, for any two voxels of a region, one of their midpoint voxels belongs to the region (3.2.2)."""
     inside = set(voxels_of(region))
     return all(any(z in inside for z in midpoint_cover(x, y)) for x, y in combinations(inside, 2))
 
 
 def midpoint_cover(x: Voxel, y: Voxel) -> list[Voxel]:
-    """Return the one, two, four or eight voxels around the midpoint of two voxels (3.2.2).
+    """Return the one, two, four or eight midpoint voxels of two voxels (3.2.2).
 
-    The midpoints of the points of both voxels fill a unit cube around the midpoint of the two centres. On each axis on
-    which the sum of the two coordinates is odd, this cube reaches into two voxels, so there are one, two, four or eight
-    midpoint voxels.
+    The midpoints between the points of one voxel and the points of the other fill a unit cube around the midpoint of
+    the two centres. On each axis on which the sum of the two coordinates is odd, this cube reaches into two voxels.
     """
     ranges = [range((a + b) // 2, (a + b + 1) // 2 + 1) for a, b in zip(x, y, strict=True)]
     return [(i, j, k) for i, j, k in product(*ranges)]
@@ -65,8 +68,8 @@ def midpoint_cover(x: Voxel, y: Voxel) -> list[Voxel]:
 def is_digitally_convex(region: Voxels) -> bool:
     """Return True if a region of voxels passes Kim and Rosenfeld's test of digital convexity (3.2.3).
 
-    The region must be simple, and every semidigital point on the faces of the hull of its digital points must be near
-    one of them. A semidigital point has at least one integer coordinate.
+    The region must be simple. Every semidigital point, which has at least one integer coordinate, on the faces of the
+    hull of the region's digital points must be near one of these digital points: less than 1 away on every axis.
     """
     if not is_simple(region):
         return False
@@ -76,12 +79,13 @@ def is_digitally_convex(region: Voxels) -> bool:
 
 
 def semidigital_segments(hull: ExactHull) -> Iterator[tuple[Place, Place]]:
-    """Yield the segments in which planes x = k, y = k and z = k, with integers k, cut the faces of a hull.
+    """Yield the segments in which the planes x = k, y = k and z = k, with integers k, intersect the faces of a hull.
 
-    A face that lies in such a plane is cut by the other two kinds only. This is enough: a point in an open unit square
-    of its plane is near all four corners of the square, and one of them is a digital point of the region if the face's
-    points on the square's sides are near one. The face of a flat hull is its polygon. A region whose hull is a segment
-    is simple only along an axis, and the segment itself is yielded.
+    For a face that lies in such a plane, only its intersections with the other two kinds of planes are yielded. This is
+    enough: a point in an open unit square of the face's plane is near all four corners of the square. One of the
+    corners is a digital point of the region if the face's points on the sides of the square are near a digital point.
+    The face of a flat hull is its polygon. If the hull is a segment, the segment itself is yielded, because the region
+    can be simple only if the segment is along an axis.
     """
     corners = [tuple(map(Fraction, point)) for point in hull.scaled]
     if hull.dimension < 2:
@@ -112,7 +116,7 @@ def _boundary_points(polygon: list[Place], axis: int, at: Fraction) -> Iterator[
 
 
 def _covered(segment: tuple[Place, Place], points: list[Voxel]) -> bool:
-    """Return True if every point of a segment is near one of the given voxels: less than 1 away on every axis."""
+    """Return True if every point of a segment is near one of the given voxels."""
     p, q = segment
     # Only a point within the box of the segment, enlarged by less than 1, can be near it.
     box = [range(math.floor(min(a, b)), math.ceil(max(a, b)) + 1) for a, b in zip(p, q, strict=True)]
@@ -121,7 +125,7 @@ def _covered(segment: tuple[Place, Place], points: list[Voxel]) -> bool:
     reached = Fraction(0)
     if not any(low < 0 for low, _ in spans):
         return False
-    # The spans are open intervals sorted by their lower ends. They must overlap without a gap from t = 0 to t = 1.
+    # The spans are open intervals sorted by their lower ends. They must cover the interval from t = 0 to t = 1.
     for low, high in spans:
         if low < reached or (low < 0 and reached == 0):
             reached = max(reached, high)

@@ -1,9 +1,9 @@
-"""Compute the convex envelope of a floor: the lower side of the hull of the lowest voxels of all columns
-(section 5).
+"""Compute the convex envelope of a floor: the lower side of the hull of the lowest voxels of all columns (section 5).
 
-The envelope consists of faces, found one after another, and their heights. It is computed from the reduced set A of
-section 4.6.1 over the hull H(A) of the projection of A. Both come from lower chains. The paper computes these by
-Sklansky's scan, which follows a polygon once and steps back whenever it turns the wrong way.
+The envelope consists of faces, which are found one after another. The faces are computed from the reduced set A of
+section 4.6.1, and lie above the plane hull H(A) of the positions (x, y) of A. A and H(A) are found by lower chains (the
+lower sides of plane hulls). The paper computes such chains by Sklansky's scan, which follows a polygon once and steps
+back whenever the polygon turns the wrong way.
 """
 
 import math
@@ -22,9 +22,10 @@ from modern.papers.yau_srihari.search import Candidates, Normal, Search, normal_
 
 
 def reduced_tree(tree: Quadtree) -> Quadtree:
-    """Remove the columns that cannot be vertices of the envelope from a floor tree (sections 4.6.1 and 5).
+    """Return a floor tree without the columns that cannot be vertices of the envelope (sections 4.6.1 and 5).
 
-    Their points are vertices of the lower chain along x = const and then of the lower chain along y = const.
+    The points of the remaining columns are vertices of a lower chain along x = const, and of the lower chain of these
+    vertices along y = const.
     """
     for axis in (0, 1):
         vertices = [(at, t, z) for at in range(tree.side) for t, z in lower_chain(trees.line(tree, axis, at))]
@@ -36,7 +37,7 @@ def reduced_tree(tree: Quadtree) -> Quadtree:
 def outline(places: Iterable[Place]) -> list[Place]:
     """Return the vertices of the plane hull of the columns' positions (x, y), counterclockwise (section 5).
 
-    The hull of columns on one line has two vertices, that of a single column has one.
+    The hull of columns on one line has two vertices, and the hull of a single column has one.
     """
     least: dict[int, int] = {}
     most: dict[int, int] = {}
@@ -49,7 +50,7 @@ def outline(places: Iterable[Place]) -> list[Place]:
 
 
 def chain_above(start: Place, end: Place, points: Grid) -> list[Point]:
-    """Return the lower side of the hull of points that lie above a segment in the plane, from ``start`` to ``end``."""
+    """Return the lower chain of the points whose positions (x, y) lie on the segment from ``start`` to ``end``."""
     dx, dy = end[0] - start[0], end[1] - start[1]
     x, y = points[:, 0] - start[0], points[:, 1] - start[1]
     # The product with the segment's direction orders the points along the segment.
@@ -62,10 +63,10 @@ def chain_above(start: Place, end: Place, points: Grid) -> list[Point]:
 
 
 def over_edges(corners: list[Place], points: Grid, whole: bool) -> list[tuple[Point, Point]]:
-    """List the envelope's edges above the border of the plane hull H(A), counterclockwise.
+    """Return the envelope's edges above the border of the plane hull H(A), counterclockwise.
 
-    The result has all edges of the lower chains above the border or, with ``whole``, a single edge above each edge of
-    H(A), as printed.
+    These are all edges of the lower chains above the border or, with ``whole``, a single edge above each edge of H(A),
+    as the paper prints.
     """
     edges: list[tuple[Point, Point]] = []
     for start, end in zip(corners, corners[1:] + corners[:1], strict=True):
@@ -85,16 +86,16 @@ class Face:
     normal: Normal
 
     def height(self, x: int, y: int) -> tuple[int, int]:
-        """Return the height z of the face's plane at (x, y), as a numerator and a positive denominator."""
+        """Return the height z of the face's plane at (x, y) as a numerator and a positive denominator."""
         a, b, c = self.normal
         p = self.vertices[0]
         return a * (x - p[0]) + b * (y - p[1]) - c * p[2], -c
 
     def places(self) -> Iterable[Place]:
-        """Yield the columns (x, y) below or above which the face lies, including its boundary."""
+        """Yield the integer positions (x, y) below or above which the face lies, including its boundary."""
         x = [vertex[0] for vertex in self.vertices]
         y = [vertex[1] for vertex in self.vertices]
-        # As seen from above the vertices run clockwise, so the face is to the right of each of its sides.
+        # Seen from above, the vertices run clockwise, so the face is to the right of each of its sides.
         sides = list(zip(self.vertices, self.vertices[1:] + self.vertices[:1], strict=True))
         for i in range(min(x), max(x) + 1):
             for j in range(min(y), max(y) + 1):
@@ -104,11 +105,12 @@ class Face:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One step of the construction in section 5: an edge taken from the queue, and the face built on it.
+    """One step of the construction in section 5: an edge taken from the queue, and the face found at this edge.
 
-    ``face`` is None if the search found no point. ``entered`` and ``removed`` are the edges added to the queue and
-    removed from it. ``marked`` counts the heights entered in the tree, ``visited`` the nodes of the tree that the
-    search visited, ``angles`` the angles it computed, and ``waiting`` the edges in the queue afterwards.
+    ``normal`` is the normal of the known face at the edge. ``face`` is None if the search found no point. ``entered``
+    and ``removed`` are the edges added to the queue and removed from it. ``marked`` is the number of heights entered in
+    the tree, ``visited`` the number of nodes that the search visited, ``angles`` the number of angles that it computed,
+    and ``waiting`` the number of edges in the queue afterwards.
     """
 
     edge: Edge
@@ -126,10 +128,10 @@ class Step:
 class Envelope:
     """The convex envelope of a floor: its faces, or a chain of vertices if all columns are in one line.
 
-    ``reduced`` holds the points of the reduced set A, ``outline`` the vertices of H(A), counterclockwise. If A lies
-    above one line, there are no ``faces``, and ``chain`` holds the envelope's vertices. ``tree`` is the floor tree with
-    the heights of the envelope. ``fault`` is the reason for a premature end, which only statements as printed can
-    cause. ``construction`` computes the paper's steps.
+    ``reduced`` has the points of the reduced set A, and ``outline`` the vertices of H(A), counterclockwise. If all
+    columns are in one line, there are no ``faces``, and ``chain`` has the envelope's vertices. ``tree`` is the floor
+    tree with the heights of the envelope. ``construction`` computes ``steps``. ``fault`` is the reason why the
+    construction stopped early, or "". Only statements applied as printed can stop it.
     """
 
     reduced: tuple[Point, ...]
@@ -142,12 +144,12 @@ class Envelope:
 
     @cached_property
     def steps(self) -> tuple[Step, ...]:
-        """The steps of the paper's construction, with searches of the quadtree; computed on first access."""
+        """The steps of the paper's construction by searches of the quadtree, which are computed on first access."""
         return self.construction()
 
 
 def envelope(floor: Quadtree, printed: Printed) -> Envelope:
-    """Compute the convex envelope (the lower side of the hull) of the heights in a tree (sections 4.6 and 5)."""
+    """Return the convex envelope (the lower side of the hull) of the heights in a tree (sections 4.6 and 5)."""
     # Section 4.6.1: the reduced set A and its outline H(A).
     tree = reduced_tree(floor)
     x, y = np.nonzero(tree.there)
@@ -169,16 +171,16 @@ def envelope(floor: Quadtree, printed: Printed) -> Envelope:
 
 
 def _queue(edges: Iterable[Edge]) -> dict[Edge, Normal]:
-    """Return the first queue: the edges above the border of the plane hull, reversed, each with a starting normal."""
+    """Return the first queue: the edges above the border of H(A), reversed, each with the normal of an upright face."""
     return {(end, start): normal_of(start, end, (start[0], start[1], start[2] + 1)) for start, end in edges}
 
 
 def _by_candidates(edges: list[Edge], points: tuple[Point, ...]) -> tuple[Face, ...]:
-    """Find the faces of the envelope by gift wrapping: from each edge in the queue, all points are compared once."""
+    """Return the faces of the envelope, found by gift wrapping with one pass over all points for each face."""
     queue, candidates = _queue(edges), Candidates(points)
     faces: list[Face] = []
     while queue:
-        # Gift wrapping: rotate a plane about the edge from the known face to the first points it meets.
+        # Gift wrapping: rotate a plane about the edge, from the known face to the first points that the plane meets.
         edge = next(iter(queue))
         in_plane = candidates.face_on(*edge, queue.pop(edge))
         if not in_plane or len(faces) > _most(points):
@@ -195,7 +197,7 @@ def _by_steps(
 ) -> tuple[tuple[Step, ...], Quadtree, str]:
     """Run the construction of section 5 as in the paper, with a search of the tree for each face.
 
-    Return the steps, the tree after the last step and the reason for a premature end.
+    Return the steps, the tree after the last step, and the reason why the construction stopped early, or "".
     """
     queue = _queue(edges)
     steps: list[Step] = []
@@ -212,14 +214,14 @@ def _by_steps(
 
 
 def _most(points: Sized) -> int:
-    """Return a number of faces that no envelope of these points can have, to stop an endless construction."""
+    """Return a number that exceeds the number of faces of any envelope, at which an endless construction is stopped."""
     return 8 * len(points) + 8
 
 
 def _step(
     edge: Edge, normal: Normal, queue: dict[Edge, Normal], tree: Quadtree, printed: Printed
 ) -> tuple[Step, Quadtree]:
-    """Find the face on an edge by a search of the tree, update the queue, and mark the face's columns."""
+    """Find the face at an edge by a search of the tree, update the queue, and return the step and the new tree."""
     search = Search(*edge, normal, printed)
     in_plane = search.run(tree)
     if not in_plane:
@@ -234,10 +236,10 @@ def _step(
 
 
 def _update_queue(face: Face, edge: Edge, queue: dict[Edge, Normal]) -> tuple[tuple[Edge, ...], tuple[Edge, ...]]:
-    """Push the edges of a new face onto the queue, except the edge it was built on.
+    """Add the edges of a new face to the queue, except the edge at which it was found.
 
-    An edge that is already queued is removed, because both of its faces are then known. Return the edges added and the
-    edges removed.
+    An edge that is already in the queue is removed instead, because both of its faces are then known. Return the edges
+    added and the edges removed.
     """
     entered, removed = [], []
     for p, q in zip(face.vertices, face.vertices[1:] + face.vertices[:1], strict=True):
@@ -245,7 +247,7 @@ def _update_queue(face: Face, edge: Edge, queue: dict[Edge, Normal]) -> tuple[tu
             continue
         queued = next((direction for direction in ((p, q), (q, p)) if direction in queue), None)
         if queued is None:
-            # The second face of the edge runs along it in the opposite direction.
+            # The second face at the edge runs along it in the opposite direction.
             queue[q, p] = face.normal
             entered.append((q, p))
         else:
@@ -255,7 +257,7 @@ def _update_queue(face: Face, edge: Edge, queue: dict[Edge, Normal]) -> tuple[tu
 
 
 def _entered(tree: Quadtree, faces: Iterable[Face]) -> Quadtree:
-    """Return the tree with the heights of all faces entered; their columns are marked as done, except vertices."""
+    """Return the tree with the heights of all faces. The columns of faces are marked as done, except vertices."""
     # From above the vertices run clockwise, and the plane's coefficient of z must be positive.
     reversed_faces = []
     for face in faces:
@@ -272,7 +274,7 @@ def _entered(tree: Quadtree, faces: Iterable[Face]) -> Quadtree:
 
 
 def _polygon(start: Point, end: Point, in_plane: list[Point]) -> tuple[Point, ...]:
-    """Return the vertices of a face, beginning with ``start``; ``in_plane`` has all points in the face's plane."""
+    """Return the vertices of the face of two points and the points ``in_plane``, beginning with ``start``."""
     point_at = {(x, y): (x, y, z) for x, y, z in (start, end, *in_plane)}
     clockwise = [point_at[place] for place in reversed(outline(point_at))]
     first = clockwise.index(start)
@@ -280,7 +282,7 @@ def _polygon(start: Point, end: Point, in_plane: list[Point]) -> tuple[Point, ..
 
 
 def _leaves(face: Face, printed: Printed) -> dict[Place, Leaf]:
-    """Return the heights of a face, one for each column; all but those of its vertices are marked as done."""
+    """Return the height of a face in each column. All columns except those of vertices are marked as done."""
     unmarked = () if printed.marks else [vertex[:2] for vertex in face.vertices]
     return {
         place: Leaf(_rounded(*face.height(*place), printed), marked=place not in unmarked) for place in face.places()
@@ -288,7 +290,7 @@ def _leaves(face: Face, printed: Printed) -> dict[Place, Leaf]:
 
 
 def _rounded(numerator: int, denominator: int, printed: Printed) -> int:
-    """Round a height up to an integer, or truncate it, as the paper prints, if ``printed.truncation`` is set."""
+    """Return a height rounded up to an integer, or truncated, as the paper prints, if ``printed.truncation`` is set."""
     if printed.truncation and numerator > 0:
         return numerator // denominator
     return -(-numerator // denominator)

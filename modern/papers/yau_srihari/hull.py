@@ -20,8 +20,8 @@ from modern.papers.yau_srihari.quadtree import Place, Quadtree, ceiling, floor, 
 
 
 def components(volume: NDArray[np.bool_]) -> int:
-    """Count the connected components of an array of voxels, in which voxels with a common face are connected."""
-    # An empty cell after every line separates the runs of neighbouring lines in the flat array.
+    """Return the number of connected components of an array of voxels. Voxels with a common face are connected."""
+    # An empty cell after every line separates the runs (consecutive voxels of a line) in the flat array.
     padded = np.zeros((volume.shape[0], *(length + 1 for length in volume.shape[1:])), dtype=np.bool_)
     padded[(slice(None), *(slice(-1) for _ in volume.shape[1:]))] = volume
     flat = padded.ravel()
@@ -33,7 +33,7 @@ def components(volume: NDArray[np.bool_]) -> int:
 
 
 def _touching(starts: Grid, ends: Grid, step: int) -> tuple[Grid, Grid]:
-    """List the pairs of runs (voxels in a row) that touch; the second run is ``step`` cells after the first."""
+    """Return the pairs of runs that have common faces. The cells of neighbouring lines are ``step`` cells apart."""
     first = np.searchsorted(ends, starts + step, side="right")
     count = np.searchsorted(starts, ends + step, side="left") - first
     pair = np.repeat(np.arange(len(starts)), count)
@@ -41,10 +41,10 @@ def _touching(starts: Grid, ends: Grid, step: int) -> tuple[Grid, Grid]:
 
 
 def _component_count(count: int, a: Grid, b: Grid) -> int:
-    """Count the components of a graph with ``count`` nodes and the edges a[k] - b[k].
+    """Return the number of components of a graph with ``count`` nodes, whose edge k joins the nodes a[k] and b[k].
 
-    Every node is labelled with the least node known to be connected with it. The loop merges the labels of the edges'
-    ends and then replaces each label by its own label until nothing changes (union-find on whole arrays).
+    The label of a node is the least node known to be connected with it. The loop merges the labels of the two ends of
+    each edge. It then replaces each label by the label of that label until nothing changes (union-find on arrays).
     """
     label = np.arange(count)
     while len(a):
@@ -61,11 +61,11 @@ def _component_count(count: int, a: Grid, b: Grid) -> int:
 class OctreeHull:
     """The digital hull of a voxel solid, and all intermediate results of the paper's algorithm.
 
-    ``side`` is the side of the cube that the trees divide. ``solid`` and ``hull`` are octrees, ``lowest`` and
-    ``highest`` the quadtrees of the floor and the ceiling. ``lower`` is the convex envelope of the floor, and ``upper``
-    that of the negated ceiling, with negated heights. ``filled`` is the hull in the shape of the volume. ``components``
-    counts the 6-connected components of the volume. If there is one, section 3.3 takes the digital points of the
-    Euclidean hull for the digital convex hull.
+    ``side`` is the side of the cube that the octrees divide. ``solid`` and ``hull`` are the octrees of the solid and
+    the hull. ``lowest`` and ``highest`` are the quadtrees of the floor and the ceiling. ``lower`` is the convex
+    envelope of the floor, and ``upper`` the convex envelope of the ceiling with negated heights. ``filled`` has the
+    voxels of the hull in the shape of the volume. ``components`` is the number of 6-connected components of the volume.
+    If it is 1, section 3.3 takes the digital points of the Euclidean hull for the digital convex hull.
     """
 
     side: int
@@ -80,12 +80,12 @@ class OctreeHull:
 
     @cached_property
     def floor(self) -> dict[Place, int]:
-        """The height z of the lowest voxel of each column, keyed by (x, y)."""
+        """The height z of the lowest voxel of each column, with the column's (x, y) as key."""
         return heights(self.lowest)
 
     @cached_property
     def ceiling(self) -> dict[Place, int]:
-        """The height z of the highest voxel of each column, keyed by (x, y)."""
+        """The height z of the highest voxel of each column, with the column's (x, y) as key."""
         return heights(self.highest)
 
     @property
@@ -109,10 +109,10 @@ class OctreeHull:
 
 
 def octree_hull(volume: Volume | NDArray[np.bool_], printed: Printed | None = None) -> OctreeHull:
-    """Compute the digital hull of a volume, or of an array of truth values, by octrees.
+    """Return the digital hull of a volume, or of an array of truth values, computed by octrees.
 
-    ``printed`` selects statements of the paper to apply as printed. Raise VolumeError for other arrays, no voxels, or a
-    cube of more than ``MAX_CELLS`` voxels.
+    ``printed`` selects statements of the paper to apply as printed. Raise VolumeError for an invalid array, for a
+    volume without voxels, or if the octree's cube has more than ``MAX_CELLS`` voxels.
     """
     volume = as_volume(volume)
     printed = printed or Printed()

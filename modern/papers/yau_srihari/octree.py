@@ -1,12 +1,12 @@
 """Octrees of voxel solids as arrays of codes: linear octrees (section 5; Jackins and Tanimoto 1980).
 
-A linear octree stores only the full leaves, each by its code and its level, sorted by code. All other nodes follow from
-them, because every divided node has a full leaf below it. The code of a leaf is the number of its lowest voxel if the
-voxels of the cube are counted son by son. Three bits of the code select the son at each level.
+A linear octree stores only the full leaves, each as a code and a level, sorted by code. All other nodes can be derived
+from the full leaves, because every divided node has a full leaf below it. The code of a leaf is the number of its
+lowest voxel if the voxels of the cube are counted son by son. Three bits of the code select the son at each level.
 
-Son 2 i + k is the half k (0 lower, 1 upper) of the cube's column over quadrant i, as section 5 associates octants with
-quadrants. Quadrant i is the x half (i mod 2) and the y half (i div 2). The figures with the paper's own numbers of
-quadrants are lost.
+As in section 5, each quadrant i of the square (x, y) belongs to two octants, sons of a node: son 2 i is the lower half
+of the node's cube over the quadrant, and son 2 i + 1 the upper half. Quadrant i is the half i mod 2 in x and the half
+i div 2 in y. The figures with the paper's own numbers of quadrants are lost.
 
 References
 ----------
@@ -31,9 +31,10 @@ ACROSS, UP, ALONG = 1, 2, 0
 class Octree:
     """The cubes that together fill a solid: the full leaves of an octree, whose voxels all belong to the solid.
 
-    ``side`` is the side of the cube, a power of two. ``codes`` and ``levels``, of shape (n,), describe the leaves by
-    increasing code. Level 0 is the whole cube, and a leaf of level l has the side ``side >> l``. No eight leaves fill
-    a node together, so two trees of one cube are equal if and only if they hold the same voxels.
+    ``side`` is the side of the octree's cube, a power of two. ``codes`` and ``levels``, of shape (n,), have an entry
+    for each leaf, sorted by code. Level 0 is the whole cube, and a leaf of level l has the side ``side >> l``. Eight
+    leaves never fill a node together, so two octrees of the same cube are equal if and only if they have the same
+    voxels.
     """
 
     side: int
@@ -57,11 +58,11 @@ class Octree:
         return np.int64(1) << 3 * (self.depth - self.levels)
 
     def corners(self) -> Grid:
-        """Return the lowest voxel of each full cube (leaf), shape (n, 3)."""
+        """Return the lowest voxel of each leaf as an array of shape (n, 3)."""
         return np.stack([_gathered(self.codes, bit, self.depth) for bit in (ACROSS, UP, ALONG)], axis=1)
 
     def at_level(self, level: int) -> tuple[Grid, Grid, Grid]:
-        """Return x, y, z of the full cubes at a level, in units of the cube's side, in the order of their codes."""
+        """Return the positions x, y, z of the leaves of a level in units of their side, in the order of their codes."""
         codes = self.codes[self.levels == level] >> 3 * (self.depth - level)
         x, y, z = (_gathered(codes, bit, level) for bit in (ACROSS, UP, ALONG))
         return x, y, z
@@ -73,16 +74,16 @@ def interleaved(x: Grid, y: Grid) -> Grid:
 
 
 def side_for(length: int) -> int:
-    """Return the side of the smallest cube for an octree: the least power of two from ``length`` on."""
+    """Return the side of the smallest cube for an octree: the least power of two that is at least ``length``."""
     return 1 << max(0, length - 1).bit_length()
 
 
 def tree_of(side: int, leaves: Iterator[tuple[int, Grid, Grid, Grid]]) -> Octree:
-    """Build an octree from full cubes, each given by its level and x, y, z in units of the cube's side."""
+    """Return the octree of full cubes, given level by level with their positions x, y, z in units of their side."""
     depth = side.bit_length() - 1
     codes, levels = [np.zeros(0, dtype=np.int64)], [np.zeros(0, dtype=np.int64)]
     for level, x, y, z in leaves:
-        # The code interleaves the bits of z, x and y; the bits below the leaf's level are 0, its lowest voxel.
+        # The code interleaves the bits of z, x and y. The bits below the leaf's level are 0, as for its lowest voxel.
         code = _spread(x, level) << ACROSS | _spread(y, level) << UP | _spread(z, level) << ALONG
         codes.append(code << 3 * (depth - level))
         levels.append(np.full(len(code), level))
@@ -92,16 +93,16 @@ def tree_of(side: int, leaves: Iterator[tuple[int, Grid, Grid, Grid]]) -> Octree
 
 
 def octree(array: NDArray[np.bool_]) -> Octree:
-    """Build the octree of voxels [x, y, z].  Its side is a power of two; voxels beyond the array are empty."""
+    """Return the octree of an array of voxels indexed [x, y, z]. The part of its cube beyond the array is empty."""
     side = side_for(max(array.shape))
     return tree_of(side, _full_leaves(array, side.bit_length() - 1))
 
 
 def intersection(a: Octree, b: Octree) -> Octree:
-    """Return the tree of the voxels that two trees over the same cube have in common (section 5).
+    """Return the octree of the voxels that two octrees of the same cube have in common (section 5).
 
-    Two nodes are either nested or disjoint. The leaves of the intersection are therefore the leaves of each tree that
-    lie in a leaf of the other. No eight of them fill a node, because that node would be full in both trees.
+    Two nodes are either nested or disjoint. The leaves of the intersection are therefore the leaves of each octree that
+    lie in a leaf of the other octree. Eight of them never fill a node, because that node would be full in both octrees.
     """
     # A leaf of both trees counts once: a leaf of b must lie in a larger leaf of a.
     a_in_b, b_in_a = _within(a, b, 0), _within(b, a, 1)
@@ -112,23 +113,23 @@ def intersection(a: Octree, b: Octree) -> Octree:
 
 
 def count(tree: Octree) -> int:
-    """Count the voxels of a tree's solid."""
+    """Return the number of voxels of an octree's solid."""
     return int(tree.voxels().sum())
 
 
 def nodes(tree: Octree) -> int:
-    """Count the nodes of a tree: the root, and eight sons for each divided node."""
+    """Return the number of nodes of an octree: the root, and eight sons for each divided node."""
     return 1 + 8 * sum(divided(tree, level) for level in range(tree.depth))
 
 
 def divided(tree: Octree, level: int) -> int:
-    """Count the nodes of a level that are divided, because only some of their voxels belong to the solid."""
+    """Return the number of nodes of a level that are divided because only some of their voxels belong to the solid."""
     ancestors = tree.codes[tree.levels > level] >> 3 * (tree.depth - level)
     return int(np.count_nonzero(np.diff(ancestors))) + bool(len(ancestors))
 
 
 def voxels_of(tree: Octree, shape: tuple[int, int, int]) -> NDArray[np.bool_]:
-    """Return the voxels of a tree as an array [x, y, z] of the given shape, without the part of the cube beyond it."""
+    """Return the voxels of an octree that lie in an array of the given shape, indexed [x, y, z]."""
     array = np.zeros((1, 1, 1), dtype=np.bool_)
     for level in range(tree.depth + 1):
         side = tree.side >> level
@@ -141,7 +142,7 @@ def voxels_of(tree: Octree, shape: tuple[int, int, int]) -> NDArray[np.bool_]:
 
 
 def _full_leaves(array: NDArray[np.bool_], depth: int) -> Iterator[tuple[int, Grid, Grid, Grid]]:
-    """Yield the largest full cubes of an array, level by level, starting with single voxels."""
+    """Yield the full cubes of an array that are in no larger full cube, level by level, starting with voxels."""
     for level in range(depth, -1, -1):
         parents = _all_of_eight(array)
         # The array is processed in slabs along x, so that the temporary arrays stay small.
@@ -186,7 +187,7 @@ def _gathered(codes: Grid, first: int, count: int) -> Grid:
 
 
 def _bits(numbers: Grid, count: int, old_distance: int, new_distance: int) -> Grid:
-    """Spread or gather bits: move ``count`` bits of each number from one distance between them to another."""
+    """Return numbers whose ``count`` bits are ``new_distance`` apart instead of ``old_distance``."""
     moved = np.zeros_like(numbers)
     for k in range(count):
         moved |= (numbers >> old_distance * k & 1) << new_distance * k
@@ -194,10 +195,10 @@ def _bits(numbers: Grid, count: int, old_distance: int, new_distance: int) -> Gr
 
 
 def _within(a: Octree, b: Octree, deeper: int) -> NDArray[np.bool_]:
-    """Return, for each full cube of ``a``, True if one of ``b``, at least ``deeper`` levels larger, contains it."""
+    """Return True for each leaf of ``a`` that lies in a leaf of ``b`` at least ``deeper`` levels above it."""
     if not len(b.codes):
         return np.zeros(len(a.codes), dtype=np.bool_)
-    # The voxels of a leaf have consecutive codes, so only the last leaf of b that does not begin later can contain it.
+    # The voxels of a leaf have consecutive codes, so only the last leaf of b whose code is not greater can contain it.
     at = np.searchsorted(b.codes, a.codes, side="right") - 1
     inside: NDArray[np.bool_] = (at >= 0) & (a.codes < (b.codes + b.voxels())[at]) & (a.levels >= b.levels[at] + deeper)
     return inside

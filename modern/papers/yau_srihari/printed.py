@@ -10,30 +10,31 @@ from emulator.errors import quoted
 
 @dataclass(frozen=True, slots=True)
 class Printed:
-    """Selects statements of the paper to apply as printed, although wrong.  By default all are corrected.
+    """The statements of the paper to apply as printed, although they are wrong. By default all are corrected.
 
     angle
         Theorem 2 chooses the face with the greatest angle between outward normals. The supporting plane is the one
         with the least angle.
     start
-        Section 5 starts from one upright face over each edge of H(A). Points of the floor may lie lower above the
-        inside of such an edge, so every edge of the lower chain of the points above it needs an upright face.
+        Section 5 starts from one upright face over each edge of H(A). Points of the floor above such an edge may lie
+        below this face. Therefore every edge of the lower chain of the points above an edge of H(A) needs an upright
+        face.
     triangles
-        Section 4.6 assumes that all faces are triangles. If four or more extreme points lie in one supporting plane,
-        triangles chosen edge by edge overlap. The face is the polygon of all of these points.
+        Section 4.6 assumes that all faces are triangles. If four or more vertices lie in one supporting plane,
+        triangles chosen edge by edge may overlap. The face is the polygon of all of these vertices.
     truncation
-        Section 5 enters the truncated height of a face. The least digital point on or above the face is its height
-        rounded up.
+        Section 5 enters the truncated height of a face. The height of the lowest digital point on or above the face is
+        the height of the face rounded up.
     bound
-        Section 4.6.2 takes both bounds of the angle over a square at z = max, which fits the greatest angle. The least
-        angle needs z = min, the value that a node of the floor tree holds. A corner below the plane of the known face,
-        where no point can be, counts as lying on it.
+        Section 4.6.2 computes both bounds of the angle over a square at z = max, which is right for the greatest angle.
+        The least angle needs z = min, the value of a node of the floor tree. A corner of the square below the plane of
+        the known face, where no point can be, counts as lying in this plane.
     corners
-        Section 4.6.2 takes the extrema over a square at its corners. This holds only if the whole square lies beyond
-        the edge. A square that the edge's line crosses has to be divided.
+        Section 4.6.2 assumes that the angle is least and greatest at corners of a square. This holds only if the whole
+        square lies beyond the edge. A square that the edge's line crosses has to be divided.
     marks
-        Section 5 marks every digital point of a face and searches only unmarked points. The vertices of a face are
-        vertices of its neighbours too and must be found again.
+        Section 5 marks every digital point of a face and searches only unmarked points. But the vertices of a face are
+        vertices of neighbouring faces too, so they must not be marked.
     """
 
     angle: bool = False

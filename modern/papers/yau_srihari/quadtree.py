@@ -1,8 +1,8 @@
 """Quadtrees that hold a height for each column (x, y) of a solid: its floor or its ceiling (section 5).
 
-A tree is stored as arrays over its square: the height of each column, whether the column exists (the paper's dotted
-branches have none) and whether it is marked. A node is a square of columns. Its values, the least and the greatest
-height of its unmarked columns, are computed level by level. Sons are numbered as in
+A tree is stored as arrays over its square: the height of each column, whether the column exists (a dotted branch of the
+paper's trees is a missing column), and whether it is marked. A node is a square of columns. The values of a node, the
+least and the greatest height of its unmarked columns, are computed level by level. Sons are numbered as in
 :mod:`modern.papers.yau_srihari.octree`.
 """
 
@@ -24,7 +24,7 @@ NO_COLUMN = np.iinfo(np.int64).max
 
 @dataclass(frozen=True, slots=True)
 class Leaf:
-    """The height of one column, and a mark if the column already belongs to a face of the envelope."""
+    """The height of one column, and True if the column is marked because it belongs to a face of the envelope."""
 
     value: int
     marked: bool = False
@@ -34,8 +34,9 @@ class Leaf:
 class Quadtree:
     """Heights over a square of columns [x, y] whose side is a power of two.
 
-    ``values`` holds the heights (integers, 0 without a column), ``there`` which columns exist, ``marked`` which are
-    known to belong to a face, and ``sides`` the side of the leaf, a square of one height, that contains each column.
+    ``values`` has the height of each column, or 0 for a missing column. ``there`` is True for columns that exist, and
+    ``marked`` for columns that are known to belong to a face. ``sides`` has, for each column, the side of the leaf (a
+    square of columns of one height) that contains the column.
     """
 
     values: Grid
@@ -49,18 +50,18 @@ class Quadtree:
 
     @property
     def low(self) -> int | None:
-        """The least height of columns not yet marked as done, or None; a node of the paper's floor tree holds it."""
+        """The least height of unmarked columns, which is the value of a node of the paper's floor tree, or None."""
         unmarked = self.values[self.there & ~self.marked]
         return int(unmarked.min()) if unmarked.size else None
 
     @property
     def high(self) -> int | None:
-        """The greatest height of columns not yet marked as done, or None; only section 4.6.2 as printed needs it."""
+        """The greatest height of unmarked columns, or None without columns. Only section 4.6.2 as printed needs it."""
         unmarked = self.values[self.there & ~self.marked]
         return int(unmarked.max()) if unmarked.size else None
 
     def is_leaf(self) -> bool:
-        """Return True if all columns of the square belong to one leaf, and so have one height."""
+        """Return True if all columns of the square belong to one leaf, so that they have one height."""
         return bool(self.there.all()) and int(self.sides.min()) >= self.side
 
 
@@ -76,20 +77,20 @@ def sons_of(tree: Quadtree) -> tuple[Quadtree, ...]:
 
 
 def floor(tree: Octree) -> Quadtree:
-    """Return the height of the lowest voxel of each column of a solid, as a quadtree (section 5)."""
+    """Return the quadtree of the height of the lowest voxel of each column of a solid (section 5)."""
     return _lowest(tree, downward=False)
 
 
 def ceiling(tree: Octree) -> Quadtree:
-    """Return the height of the highest voxel of each column of a solid, as a quadtree (section 5)."""
+    """Return the quadtree of the height of the highest voxel of each column of a solid (section 5)."""
     return mirrored(_lowest(tree, downward=True))
 
 
 def _lowest(tree: Octree, downward: bool) -> Quadtree:
-    """Compute the lowest voxel of each column; if ``downward``, the lowest of the solid reflected in z.
+    """Return the height of the lowest voxel of each column of a solid, or of the solid reflected in z if ``downward``.
 
-    Among the leaves of one level over a square, the first in the order of the sons is the lowest and the last the
-    highest. Leaves of other levels may be lower or higher, so the levels are merged by the minimum.
+    Among the leaves of one level over a square, the first in the order of codes is the lowest and the last the highest.
+    Leaves of other levels may be lower, so the minimum over all levels is taken.
     """
     values = np.full((1, 1), NO_COLUMN)
     sides = np.ones((1, 1), dtype=np.int64)
@@ -99,7 +100,7 @@ def _lowest(tree: Octree, downward: bool) -> Quadtree:
         side = tree.side >> level
         x, y, z = tree.at_level(level)
         of_level = np.full_like(values, NO_COLUMN)
-        # NumPy assigns in order, so the last of several leaves over one square determines the value.
+        # NumPy assigns in order, so the last of several leaves over one square remains.
         if downward:
             of_level[x, y] = 1 - side * (z + 1)
         else:
@@ -120,10 +121,9 @@ def heights(tree: Quadtree) -> dict[Place, int]:
 
 
 def line(tree: Quadtree, axis: int, at: int) -> Iterator[tuple[int, int]]:
-    """List the columns in one row of the quadtree, those whose coordinate ``axis`` is ``at``: (other coordinate,
-    height).
+    """Return the columns whose coordinate on ``axis`` is ``at``, as pairs of their other coordinate and their height.
 
-    In the paper this line is a binary subtree of the quadtree with two sons at every node (TR-170; section 5).
+    In the paper this line is a binary subtree of the quadtree, with two sons at every node (TR-170; section 5).
     """
     there, values = (grid[at] if axis == 0 else grid[:, at] for grid in (tree.there, tree.values))
     return zip(np.flatnonzero(there).tolist(), values[there].tolist(), strict=True)
@@ -144,7 +144,7 @@ def written(tree: Quadtree, cells: Mapping[Place, Leaf]) -> Quadtree:
 
 
 def bounds_by_level(tree: Quadtree) -> list[tuple[Grid, Grid]]:
-    """Compute the least and the greatest unmarked height of every square, from single columns to the whole tree.
+    """Return the least and the greatest unmarked heights of all squares, for each level from columns to the whole tree.
 
     A square without unmarked columns has the least height ``NO_COLUMN`` and the greatest height ``-NO_COLUMN``.
     """
@@ -157,21 +157,20 @@ def bounds_by_level(tree: Quadtree) -> list[tuple[Grid, Grid]]:
 
 
 def graph_side(tree: Quadtree, above: bool) -> Octree:
-    """Return the voxels at and above a tree's heights (``above``), or at and below them, as an octree (section 5).
+    """Return the octree of the voxels at and above a tree's heights if ``above``, otherwise at and below (section 5).
 
-    In the paper, sons 2 i and 2 i + 1 are generated from son i. A voxel is full if its third coordinate is not less
-    than (not greater than) the height of its column.
+    The paper generates sons 2 i and 2 i + 1 of the octree from son i of the quadtree.
     """
-    # The epigraph is built like a hypograph from the top down: only the number of full voxels per column matters.
+    # The voxels above the heights are stacked from the top down, and the voxels below the heights from the bottom up.
     filled = tree.side - tree.values if above else tree.values + 1
     return tree_of(tree.side, _stacks(np.where(tree.there, np.clip(filled, 0, tree.side), 0), above))
 
 
 def _stacks(filled: Grid, above: bool) -> Iterator[tuple[int, Grid, Grid, Grid]]:
-    """Yield the full cubes, level by level, that fill the lowest (or if ``above`` the highest) voxels of all columns.
+    """Yield the leaves, level by level, of the octree in which each column has ``filled`` voxels at the bottom.
 
-    The number of full cubes over a square is determined by its shortest column. The cubes inside full cubes of the next
-    larger size are not leaves. These inner cubes are the lowest cubes over the square, two for each larger cube.
+    If ``above``, the voxels are at the top. The shortest column over a square determines the number of full cubes over
+    the square. The lowest of these cubes lie in full cubes of the next larger size, two in each, and are not leaves.
     """
     size = len(filled)
     for level in range(size.bit_length() - 1, -1, -1):

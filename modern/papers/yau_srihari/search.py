@@ -1,9 +1,9 @@
 """Search a quadtree for the second face at an edge of the envelope (Theorem 2 and section 4.6.2).
 
-Angles are compared exactly. The cosine of the angle between two integer normals p and q is ordered as
-(p . q) |p . q| / (q . q), because p is the same in all comparisons.
+Angles are compared exactly. The angle between two integer normals p and q has a greater cosine if the number
+(p . q) |p . q| / (q . q) is greater, because p is the same in all comparisons.
 
-``Search`` follows the paper square by square, counts its work and can apply statements as printed. ``Candidates``
+``Search`` follows the paper square by square, counts its steps and can apply statements as printed. ``Candidates``
 finds the same points in the same order by one pass over arrays of all points.
 """
 
@@ -22,12 +22,12 @@ from modern.papers.yau_srihari.quadtree import NO_COLUMN, Point, Quadtree, bound
 Normal = tuple[int, int, int]
 Bounds = tuple[Fraction | None, Fraction | None]
 
-# A bound of the relative rounding error of a float64 score, which is one product and one quotient (2 ** -53 each).
+# A bound of the relative rounding error of a float64 score, which is the result of one product and one quotient.
 ROUNDED = 2.0**-48
 
 
 def normal_of(u: Point, v: Point, w: Point) -> Normal:
-    """Return the normal of the plane of three points, which run counterclockwise as seen from the side it points to."""
+    """Return the normal of the plane of three points. From the side to which it points, they run counterclockwise."""
     ax, ay, az = v[0] - u[0], v[1] - u[1], v[2] - u[2]
     bx, by, bz = w[0] - u[0], w[1] - u[1], w[2] - u[2]
     return ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
@@ -37,9 +37,10 @@ def normal_of(u: Point, v: Point, w: Point) -> Normal:
 class Search:
     """A search for the second face at the directed edge from ``start`` to ``end``, as the paper describes it.
 
-    ``normal`` is the outward normal of the edge's known face. ``best`` is the best score so far, and ``points`` are
-    the points that reach it, in the order of the search. ``sure`` is the paper's w, a score that some point is known
-    to reach. ``visited`` counts the visited nodes, ``angles`` the angles computed for points and corners of squares.
+    ``normal`` is the outward normal of the edge's known face. ``best`` is the best score so far, and ``points`` are the
+    points with this score in the order of the search. ``sure`` is the paper's w, a score that at least one point is
+    known to reach. ``visited`` is the number of visited nodes, and ``angles`` the number of angles computed for points
+    and for corners of squares.
     """
 
     start: Point
@@ -61,8 +62,8 @@ class Search:
     def score(self, point: Point) -> Fraction | None:
         """Return a number that grows with the cosine of the angle between the known face and the face through a point.
 
-        It is None for a point on the line of the edge. The second face maximises the score. For Theorem 2 as printed
-        its sign is reversed.
+        Return None for a point on the line of the edge. The points of the second face have the greatest score. If
+        Theorem 2 is applied as printed, the sign of the score is reversed.
         """
         self.angles += 1
         a, b, c = normal_of(self.start, self.end, point)
@@ -73,7 +74,7 @@ class Search:
         return -cosine if self.printed.angle else cosine
 
     def beyond(self, x: int, y: int) -> bool:
-        """Return True if (x, y) is on the side of the edge, seen from above, on which the second face can lie."""
+        """Return True if (x, y) is on the side of the edge on which the second face can lie, as seen from above."""
         ex, ey = self.end[0] - self.start[0], self.end[1] - self.start[1]
         return ex * (y - self.start[1]) < ey * (x - self.start[0])
 
@@ -96,7 +97,7 @@ class Search:
             if low != NO_COLUMN:
                 least, most = self.bounds(low, most_of.item(k, m), k * half, m * half, half)
             sons.append((k, m, most))
-            # w is the greatest delta_1 so far: some point of that son scores at least as much.
+            # w is the greatest delta_1 so far: at least one point of that son has this score or a greater score.
             if least is not None and (self.sure is None or least > self.sure):
                 self.sure = least
         for k, m, most in sons:
@@ -107,12 +108,12 @@ class Search:
     def bounds(self, low: int, high: int, x: int, y: int, side: int) -> Bounds:
         """Return bounds for the scores of points in a square: the paper's delta_1 and delta_2.
 
-        Some point of the square scores at least delta_1, and none scores more than delta_2. Both are None if the
-        corners of the square do not determine them.
+        At least one point of the square has a score of at least delta_1, and no point has a score above delta_2. Both
+        are None if the corners of the square do not determine them.
 
-        The lower a point is, the smaller is the angle between its plane and the known face. The least height of the
-        square therefore gives both bounds: no point is lower, and one point is that low. Theorem 2 as printed needs
-        the greatest height.
+        The lower a point is, the smaller is the angle between the known face and the face through the point. The least
+        height in the square therefore gives both bounds, because no point is lower and one point has this height. If
+        Theorem 2 is applied as printed, the greatest height is needed.
         """
         places = list(_corners(x, y, side))
         # The score is monotonic along the square's sides only if the whole square lies beyond the edge.
@@ -125,8 +126,8 @@ class Search:
     def _corner(self, corner: Point) -> Fraction | None:
         """Return the score of a corner of a square.
 
-        No point of the floor is below the plane of the known face, but a corner may be. The angle would grow again on
-        that side, so such a corner counts as lying in the plane, with the angle 0.
+        No point of the floor is below the plane of the known face, but a corner of a square may be. The angle would
+        grow again on that side, so such a corner counts as lying in the plane, with the angle 0.
         """
         (a, b, c), (x, y, z) = self.normal, self.start
         outside = a * (corner[0] - x) + b * (corner[1] - y) + c * (corner[2] - z) > 0
@@ -151,11 +152,12 @@ def _corners(x: int, y: int, side: int) -> Iterator[tuple[int, int]]:
 
 
 class Candidates:
-    """The points that may be vertices of faces, as arrays: the same search as :class:`Search`, but faster.
+    """The points that may be vertices of faces, as arrays, for the same search as in :class:`Search`, but faster.
 
-    A face is found by one pass over all points. For coordinates up to 1,024, the side of the largest cube, all sums of
-    products in a score are integers below 2 ** 53, so float64 represents them exactly. Only the last product and the
-    quotient are rounded. The points whose rounded scores could be the greatest are compared as fractions.
+    A face is found by one pass over all points. The coordinates are at most 1,024, the side of the largest cube.
+    Therefore all sums of products in a score are integers below 2 ** 53, which float64 represents exactly. Only the
+    last product and the quotient are rounded. The points whose rounded scores could be the greatest are compared
+    exactly.
     """
 
     def __init__(self, points: Sequence[Point]) -> None:
@@ -171,8 +173,8 @@ class Candidates:
         ex, ey, ez = end[0] - start[0], end[1] - start[1], end[2] - start[2]
         divisor = math.gcd(*normal)
         a, b, c = (number // divisor for number in normal)
-        # The rows of the matrix are linear forms of a point: the three components of the normal of the plane through
-        # the edge and the point, and the product of that normal with the known face's normal.
+        # Each row of the matrix is a linear function of a point. The functions are the three components of the normal
+        # of the plane through the edge and the point, and the product of that normal with the known face's normal.
         rows = np.array(
             [[0, -ez, ey], [ez, 0, -ex], [-ey, ex, 0], [b * ez - c * ey, c * ex - a * ez, a * ey - b * ex]],
             dtype=np.int64,
