@@ -115,7 +115,7 @@ def points_at_diameter_14() -> Check:
     return exhibited(not may_be_convex(int(row.corners), row.faces), message)
 
 
-def _numbers_of_ball() -> list[int]:
+def numbers_of_ball() -> list[int]:
     """Return the printed counts of the ball of diameter 32: voxels, local corners, triangles and faces."""
     printed = _printed("kovalevsky-schulz")
     names = ("ball-voxels", "ball-corners-6", "ball-corners-26", "ball-triangles", "ball-faces")
@@ -127,13 +127,13 @@ def _numbers_of_ball() -> list[int]:
 @claim("kovalevsky-schulz.20", "kovalevsky-schulz.21", "kovalevsky-schulz.64")
 def ball_of_diameter_32() -> Check:
     """Check the printed counts of the ball of diameter 32 by its symmetry and by Euler's formula."""
-    voxels, corners, near_corners, triangles, faces = _numbers_of_ball()
+    voxels, corners, near_corners, triangles, faces = numbers_of_ball()
     outcomes = [
-        ("the centre is a voxel", voxels % 2 == 1),
+        ("an odd number of voxels", voxels % 2 == 1),
         # The corners lie on no plane of symmetry, and the reflections in three planes move them in groups of 8.
         ("multiples of 8", corners % 8 == near_corners % 8 == 0 and (triangles + 4) % 16 == 0),
-        ("at most 776 corners are used", triangles <= 2 * corners - 4),
-        ("faces", may_be_convex(near_corners, faces) and faces % 2 == 0),
+        (f"at most {corners} corners make the triangles", triangles <= 2 * corners - 4),
+        ("possible number of faces", may_be_convex(near_corners, faces) and faces % 2 == 0),
     ]
     return satisfied("ball of diameter 32", outcomes)
 
@@ -141,12 +141,12 @@ def ball_of_diameter_32() -> Check:
 @claim("kovalevsky-schulz.22")
 def triangles_of_360_corners() -> Check:
     """Check that 360 local corners, found by testing 26 neighbours, are too few for the printed 1404 triangles."""
-    _, _, near_corners, triangles, _ = _numbers_of_ball()
+    _, _, near_corners, triangles, _ = numbers_of_ball()
     most = 2 * near_corners - 4
     return refuted(triangles > most, f"{near_corners} corners make at most {most} triangles; printed: {triangles}")
 
 
-@claim("kovalevsky-schulz.39", "kovalevsky-schulz.40", "kovalevsky-schulz.41")
+@claim("kovalevsky-schulz.39", "kovalevsky-schulz.40", "kovalevsky-schulz.41", "kovalevsky-schulz.42")
 def cell_list() -> Check:
     """Check that the sublists of Tables 1 to 3 agree: every edge is on two vertices and two faces."""
     printed = _printed("kovalevsky-schulz")
@@ -159,7 +159,7 @@ def cell_list() -> Check:
     }
     passed = sorted(edge for ring in rings for edge in ring[1::2])
     outcomes = [
-        ("every edge joins two different vertices", at == signed),
+        ("the signed edges at each vertex are those of Table 2", at == signed),
         ("every face has three edges", sides == dict.fromkeys(range(1, len(rings) + 1), 3)),
         ("the faces form a sphere", is_sphere(ring[::2] for ring in rings)),
         ("the two faces of each edge pass it in opposite directions", passed == sorted((*ends, *(-e for e in ends)))),
@@ -172,9 +172,9 @@ def table_4() -> Check:
     """Check that the triangles and the hull of Table 4 can be closed surfaces, with integers by (5) and (6)."""
     printed = _printed("kovalevsky-schulz")
     triangles, corners, integers = _numbers(printed["table4-triangulation"][0])
-    outcomes = [("triangles", 2 * integers == 9 * triangles and abs(triangles - 2 * corners) <= 20)]
+    outcomes = [("(5)", 2 * integers == 9 * triangles and abs(triangles - 2 * corners) <= 20)]
     faces, corners, integers = _numbers(printed["table4-hull"][0])
-    outcomes.append(("hull", integers == 3 * corners + 5 * faces and may_be_convex(corners, faces)))
+    outcomes.append(("(6) and a possible hull", integers == 3 * corners + 5 * faces and may_be_convex(corners, faces)))
     return satisfied("Table 4", outcomes)
 
 

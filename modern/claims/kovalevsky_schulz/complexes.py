@@ -11,6 +11,7 @@ from itertools import combinations, combinations_with_replacement, product
 import numpy as np
 
 from modern.claims.evidence import Check, claim, exhausted, exhibited, search
+from modern.claims.hulls import exact_hull
 from modern.claims.kovalevsky_schulz.voxels import SOLIDS, Voxels
 from modern.claims.sampled_sets import Point
 from modern.digital.solids import listed
@@ -71,14 +72,21 @@ def _placed(solid: Voxels, of: Of) -> set[Cell]:
 
 @claim("kovalevsky-schulz.25", full=4_000)
 def interior_and_closure(cases: int = 3) -> Check:
-    """Check that the program takes the voxels of Int(M) and the 0-cells of Cl(M) as the points of the two hulls."""
+    """Check that the hull of all cells of Int(M) has voxels as vertices, and that of Cl(M) the corners of voxels."""
 
     def agrees(solid: Voxels) -> bool:
         cells = _complex(solid)
-        inner, corners = _halved(interior(cells), 3), _halved(closure(cells), 0)
-        return (_placed(solid, CENTRES), _placed(solid, VERTICES)) == (inner, corners)
+        parts: tuple[tuple[Of, list[Cell], int], ...] = (
+            (CENTRES, sorted(interior(cells)), 3),
+            (VERTICES, sorted(cells), 0),
+        )
+        return all(
+            {dimension(part[k]) for k in exact_hull(part).vertices} == {kind}
+            and _halved(part, kind) == _placed(solid, of)
+            for of, part, kind in parts
+        )
 
-    return search(SOLIDS, agrees, cases, "the points are the voxels of the interior and the 0-cells of the closure")
+    return search(SOLIDS, agrees, cases, "Int(M) has the hull of its voxels, and Cl(M) that of the voxels' vertices")
 
 
 @claim("kovalevsky-schulz.174", full=4_000)
@@ -106,8 +114,11 @@ def cells_of_a_cube() -> Check:
 @claim("kovalevsky-schulz.175")
 def edges_at_a_0_cell() -> Check:
     """Check that a 0-cell is incident to four 1-cells in a plane, but to more in space."""
-    plane, space = (sum(dimension(cell) == 1 for cell in star((2,) * n)) for n in (2, 3))
-    check = exhibited(plane == 4, f"a 0-cell is incident to {plane} 1-cells in a plane")
+    plane = {*product(range(5), repeat=2)}
+    numbers = [sum(dimension(f) == 1 for f in star(cell) & plane) for cell in plane if dimension(cell) == 0]
+    space = sum(dimension(cell) == 1 for cell in star((2, 2, 2)))
+    message = f"a 0-cell is incident to {min(numbers)} to {max(numbers)} 1-cells"
+    check = exhausted("0-cells of a block of four pixels", [number <= 4 for number in numbers], message)
     return check.unless(space > 4, f"a 0-cell in space, which is incident to {space} 1-cells")
 
 
@@ -129,10 +140,11 @@ def incidence_by_coordinates() -> Check:
         around = a <= i and b >= j and c <= k and d >= m and g <= n and h >= o
         outcomes.append((within or around) == (f in near[e]) == (e in near[f]))
     outcomes.append(any(near[f] - near[e] for e in cells for f in near[e] & {*cells}))
-    return exhausted("pairs of cells of a block of eight voxels", outcomes, "dimension and incidence are as expected")
+    message = "coordinates tell the dimension and the incident cells of each cell; incidence is not transitive"
+    return exhausted("cells of a block of eight voxels and pairs of them", outcomes, message)
 
 
-@claim("kovalevsky-schulz.138")
+@claim("kovalevsky-schulz.32", "kovalevsky-schulz.138")
 def cells_with_common_coordinates() -> Check:
     """Check that a voxel and seven cells, of which three are 1-cells and three 2-cells, have the same coordinates."""
     dimensions: dict[Cell, list[int]] = {}
@@ -140,7 +152,8 @@ def cells_with_common_coordinates() -> Check:
     for cell in product(range(8), repeat=3):
         dimensions.setdefault(farthest_ground_cell(cell), []).append(dimension(cell))
     outcomes = [sorted(of_voxel) == [0, 1, 1, 1, 2, 2, 2, 3] for of_voxel in dimensions.values()]
-    return exhausted("voxels of a block of 64", outcomes, "eight cells of all dimensions have the same coordinates")
+    message = "one 0-cell and seven other cells, as many as a byte has bits, have the coordinates of each voxel"
+    return exhausted("voxels of a block of 64", outcomes, message)
 
 
 @cache

@@ -47,7 +47,7 @@ def smaller_polyhedron(vertices: str) -> Check:
     )
 
 
-@claim("kovalevsky-schulz.151", "kovalevsky-schulz.156", "kovalevsky-schulz.126", "kovalevsky-schulz.75", full=1_000)
+@claim("kovalevsky-schulz.126", "kovalevsky-schulz.75", full=1_000)
 def vertices_are_local_corners(cases: int = 2) -> Check:
     """Check that the polyhedron of the local corners is the hull of the voxels, or of their corners."""
 
@@ -80,7 +80,7 @@ def proof_of_the_algorithm(cases: int = CASES) -> Check:
     return check.unless(not any(statement.holds for statement in false) and formula_4().evidence.violation, case)
 
 
-def _horizons(cases: int = CASES) -> Iterator[tuple[Point, Plane, Plane, Plane, list[Point], tuple[Point, Point]]]:
+def _horizons(cases: int) -> Iterator[tuple[Point, Plane, Plane, Plane, list[Point], tuple[Point, Point]]]:
     """Yield sampled edges between a visible and an invisible face, each with the new point and the planes involved."""
     for points, judge in hulls(cases):
         for new in ((9, 1, 0), (-8, 3, 7)):
@@ -107,8 +107,8 @@ def closed_boundary(cases: int = CASES) -> Check:
     return searched(SETS[3], cases, checks, f"the boundary is closed for {len(checks)} points outside a hull")
 
 
-@claim("kovalevsky-schulz.73")
-def section_angles() -> Check:
+@claim("kovalevsky-schulz.73", full=400)
+def section_angles(cases: int = CASES) -> Check:
     """Check that the angles of Fig. 9 are right if Q is the foot of the perpendicular and the edge is not sharp.
 
     The angle beta is 90 - alpha or alpha - 90 if it is acute and the squares of the two cosines add up to 1.
@@ -116,7 +116,7 @@ def section_angles() -> Check:
     right: list[bool] = []
     sharp: list[bool] = []
     elsewhere: list[bool] = []
-    for new, visible, hidden, plane, vertices, edge in _horizons():
+    for new, visible, hidden, plane, vertices, edge in _horizons(cases):
         sign = -1 if max(plane_value(plane, p) for p in vertices) > 0 else 1
         outward = tuple(sign * n for n in plane[:3])
         along = minus(edge[1], edge[0])
@@ -130,7 +130,7 @@ def section_angles() -> Check:
             for normal in (visible[:3], hidden[:3]):
                 acute = dot(normal, outward) > 0  # type: ignore[arg-type]
                 sums.append(acute and _cosine(normal, line) + _cosine(normal, outward) == 1)
-    check = searched(SETS[3], CASES, right, f"{len(right)} angles are right with Q at the foot of the perpendicular")
+    check = searched(SETS[3], cases, right, f"{len(right)} angles are right with Q at the foot of the perpendicular")
     case = f"Q at an end of the edge, with {elsewhere.count(False)} wrong angles, and sharp edges, {sharp.count(False)}"
     return check.unless(False in elsewhere and False in sharp, case)
 

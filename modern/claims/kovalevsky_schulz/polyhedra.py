@@ -23,7 +23,7 @@ from modern.papers.kovalevsky_schulz import (
     voxel_hull,
 )
 from modern.papers.kovalevsky_schulz.cells import CellList
-from modern.papers.kovalevsky_schulz.coplanar import EXTENDED, QUADRANGLES, Treatment, coplanar_hull
+from modern.papers.kovalevsky_schulz.coplanar import EXTENDED, QUADRANGLES, coplanar_hull
 from modern.papers.kovalevsky_schulz.corners import Of
 from modern.papers.kovalevsky_schulz.hull import merged, straightened
 from modern.papers.kovalevsky_schulz.polyhedron import Coplanar, CurrentPolyhedron, independent
@@ -71,7 +71,9 @@ def any_order(cases: int = CASES) -> Check:
         for order in (points, points[::-1], sorted(points)):
             outcomes.append(exact_hull([order[k] for k in independent(order)]).dimension == 3)
             outcomes.append({*merged(polyhedron(order)).planes()} == {f.plane for f in judge.facets})
-    return searched(SETS[3], cases, outcomes, f"{len(outcomes) // 2} orders start with a tetrahedron")
+    return searched(
+        SETS[3], cases, outcomes, f"{len(outcomes) // 2} orders begin with a tetrahedron and end with the hull"
+    )
 
 
 @claim("kovalevsky-schulz.127", "kovalevsky-schulz.169", "kovalevsky-schulz.77", full=400)
@@ -216,10 +218,13 @@ def fewest_new_faces(cases: int = 3) -> Check:
 
 @claim("kovalevsky-schulz.60")
 def point_in_two_planes() -> Check:
-    """Check that a point in the planes of two adjacent faces of a tetrahedron extends both faces."""
-    hull = coplanar_hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (2, 0, 0)], EXTENDED)
-    message = f"{hull.extended} faces are extended, and {hull.straightened} edges become collinear"
-    return exhibited(hull.extended == 2, message)
+    """Check that a point in line with an edge of a tetrahedron is in the planes of the two faces at this edge."""
+    faces = exact_hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]).facets
+    coplanar = [{*f.polygon} for f in faces if plane_value(f.plane, (2, 0, 0)) == 0]
+    passed = len(coplanar) == 2 and coplanar[0] & coplanar[1] == {0, 1}
+    return exhibited(
+        passed, f"{len(coplanar)} faces of a tetrahedron are coplanar with a point in line with their edge"
+    )
 
 
 @claim("kovalevsky-schulz.55")
@@ -246,15 +251,16 @@ def quadrangles() -> Check:
     return exhibited(all(outcomes) and corners == 4, message)
 
 
-@claim("kovalevsky-schulz.163", treatment="quadrangles")
-@claim("kovalevsky-schulz.165")
-def collinear_edges(treatment: Treatment = EXTENDED) -> Check:
+@claim("kovalevsky-schulz.163", treatment="invisible")
+@claim("kovalevsky-schulz.165", treatment="extended")
+def collinear_edges(treatment: str) -> Check:
     """Check that a new point in line with an edge takes the place of the end of this edge as a vertex."""
-    square = [(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0), (1, 1, 5)]
-    judge = exact_hull([*square, (8, 0, 0)])
-    treated = coplanar_hull([*square, (8, 0, 0)], treatment)
-    passed = judge.vertices == (0, 2, 3, 4, 5) and treated.straightened > 0
-    return exhibited(passed, f"{treated.straightened} edges become collinear; (4, 0, 0) is no longer a vertex")
+    points = [(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0), (1, 1, 5), (8, 0, 0)]
+    cells = merged(polyhedron(points, INVISIBLE))
+    removed = {*cells.points} - {*straightened(cells).points}
+    becomes = removed == {points[1]} if treatment == INVISIBLE else coplanar_hull(points, EXTENDED).straightened > 0
+    passed = exact_hull(points).vertices == (0, 2, 3, 4, 5) and becomes
+    return exhibited(passed, f"two edges at {points[1]} become collinear, and it is no longer a vertex")
 
 
 @claim("kovalevsky-schulz.44", "kovalevsky-schulz.160", full=1_000)

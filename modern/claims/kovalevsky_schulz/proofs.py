@@ -59,6 +59,16 @@ def last_of_three_choices() -> Proof:
     )
 
 
+def largest_combination() -> Proof:
+    """Prove that a point with the largest value of a linear function is a combination only of such points."""
+    return Proof(
+        "a point with the largest value of H is a combination only of points with this value",
+        "H of a combination is the combination of the values of H. More than two points are combined one after the "
+        "other, and only points with positive weights count.",
+        (largest_value(), combination_satisfies()[0]),
+    )
+
+
 def lemma_lz() -> Proof:
     """Prove that if an inequality cuts off a nonempty part of a finite set, this part contains a vertex of the hull."""
     return Proof(
@@ -70,8 +80,7 @@ def lemma_lz() -> Proof:
         (
             *largest_of_part().steps,
             *last_of_three_choices().steps,
-            largest_value(),
-            combination_satisfies()[0],
+            *largest_combination().steps,
         ),
     )
 
@@ -187,7 +196,7 @@ def lemma_be() -> Proof:
 @claim("kovalevsky-schulz.65", proof=lemma_lz)
 @claim("kovalevsky-schulz.66", proof=largest_of_part)
 @claim("kovalevsky-schulz.68", proof=last_of_three_choices)
-@claim("kovalevsky-schulz.124", proof=lemma_lz)
+@claim("kovalevsky-schulz.124", proof=largest_combination)
 @claim("kovalevsky-schulz.69", proof=lemma_ch)
 @claim("kovalevsky-schulz.14", "kovalevsky-schulz.16", "kovalevsky-schulz.17", proof=vertex_is_no_combination)
 @claim("kovalevsky-schulz.121", "kovalevsky-schulz.167", proof=vertex_is_no_combination)

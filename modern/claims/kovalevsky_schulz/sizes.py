@@ -2,18 +2,17 @@
 
 import re
 from fractions import Fraction
-from functools import cache
 
-from modern.claims.evidence import Check, claim, exhausted, exhibited, searched, slip
+from modern.claims.evidence import Check, claim, exhibited, searched, slip
+from modern.claims.invariants import half_balls
 from modern.claims.kovalevsky_schulz.polyhedra import hulls, polyhedron
-from modern.claims.published import PAPERS, printed_lines, produced_by
+from modern.claims.published import PAPERS, printed_lines, results_of
 from modern.claims.sampled_sets import CASES, SETS
 from modern.papers.kovalevsky_schulz.cells import CellList, cell_list_size, economical_size, triangulation_size
 from modern.papers.kovalevsky_schulz.hull import merged, straightened
 from modern.papers.kovalevsky_schulz.results import half_ball_cells
 
-# The diameters of the half-balls of Table 5.
-DIAMETERS = (8, 10, 12, 14, 16, 18, 20, 22)
+PAPER = next(paper for paper in PAPERS if paper.name == "kovalevsky-schulz")
 
 
 @claim("kovalevsky-schulz.78", full=400)
@@ -26,44 +25,41 @@ def formula_5(cases: int = CASES) -> Check:
 
 @claim("kovalevsky-schulz.91")
 def integers_per_face() -> Check:
-    """Check that Table 5 prints quotients rounded, as 8.56 shows, so that the printed 7.53 must be 7.54."""
-    sixteen, eighteen = (Fraction(100 * integers, faces) for _, _, faces, integers in _table_5()[4:6])
-    rounded = (int(sixteen), round(sixteen)) == (855, 856)
-    message = "1010 / 118 is printed rounded as 8.56; 1070 / 142 is 7.535"
-    return slip(round(eighteen) == 753, rounded and round(eighteen) == 754, "7.54", message)
-
-
-@cache
-def _table_5() -> tuple[tuple[int, int, int, int], ...]:
-    """Return, for each row of Table 5, printed triangles and integers, and computed faces and integers of the hull."""
-    paper = next(paper for paper in PAPERS if paper.name == "kovalevsky-schulz")
-    printed, made = printed_lines(paper), produced_by(paper)
-    rows = [(printed[name][0].split(), made[name][0].split()) for name in (f"table5-{d}" for d in DIAMETERS)]
-    return tuple((int(p[1]), int(p[2]), int(m[4]), int(m[5])) for p, m in rows)
+    """Check that all quotients of Table 5 are rounded except one that is truncated; they are printed in hundredths."""
+    rows = [result.printed[0].split() for result in results_of(PAPER) if result.id.startswith("table5-")]
+    quotients = [(int(row[6].replace(".", "")), Fraction(100 * int(row[5]), int(row[4]))) for row in rows]
+    wrong = [(printed, exact) for printed, exact in quotients if printed != round(exact)]
+    others = "".join(f"; {float(exact / 100):.4f} is printed as {printed / 100}" for printed, exact in wrong)
+    is_truncated = [int(exact) for _, exact in wrong] == [printed for printed, _ in wrong]
+    correction = ", ".join(str(round(exact) / 100) for _, exact in wrong)
+    return slip(not wrong, is_truncated, correction, f"{len(rows) - len(wrong)} quotients are rounded{others}")
 
 
 @claim("kovalevsky-schulz.100")
 def memory_requirements() -> Check:
-    """Check that the cell lists of Table 5 need fewer integers than Marching Cubes, but not always than the hull's
+    """Check that the printed cell lists need fewer integers than Marching Cubes, but not always than the hull's
     triangles.
 
     Formula (6) gives the number V of vertices from the number of integers; a hull has 2 V - 4 triangles.
     """
+    tables = printed_lines(PAPER)
     fewer, more = [], {}
-    for diameter, (_, triangulated, faces, cells) in zip(DIAMETERS, _table_5(), strict=True):
-        # Formula (6) counts 5 integers for each face and 3 for each vertex.
-        own = triangulation_size(2 * ((cells - 5 * faces) // 3) - 4)
-        fewer.append(cells < triangulated)
-        if cells > own:
-            more[diameter] = f"{cells} integers against {own} of the hull's own triangles at diameter {diameter}"
-    fewer.append(cell_list_size(60, 63) < triangulation_size(3560))
+    for row in half_balls():
+        own = triangulation_size(2 * int(row.corners) - 4)
+        fewer.append(row.integers < row.triangle_integers)
+        if row.integers > own:
+            more[row.diameter] = (
+                f"{row.integers} integers against {own} of its own triangles at diameter {row.diameter}"
+            )
+    car, triangles = (int(tables[name][0].split()[-1]) for name in ("table4-hull", "table4-triangulation"))
+    fewer.append(car < triangles)
     message = f"the cell list is smaller than the triangles of Marching Cubes in {sum(fewer)} of {len(fewer)} cases; "
     return exhibited(all(fewer) and {*more} == {10, 18}, f"{message}{', '.join(more.values())}")
 
 
 def _bodies() -> tuple[list[CellList], list[CellList]]:
     """Return the cell lists of the half-balls, with the points on straight edges and without them."""
-    bodies = [half_ball_cells(d) for d in DIAMETERS]
+    bodies = [half_ball_cells(row.diameter) for row in half_balls()]
     return bodies, [straightened(cells) for cells in bodies]
 
 
@@ -74,8 +70,7 @@ def integers_of_table_4() -> Check:
     By Euler's formula the hull has V + F - 2 edges, each of which is on two faces. The list therefore has 3 V + 2 E
     integers, or F more if it also has the number of vertices of each face.
     """
-    paper = next(paper for paper in PAPERS if paper.name == "kovalevsky-schulz")
-    faces, vertices, integers = map(int, re.findall(r"\d+", printed_lines(paper)["table4-hull"][0]))
+    faces, vertices, integers = map(int, re.findall(r"\d+", printed_lines(PAPER)["table4-hull"][0]))
     edges = vertices + faces - 2
     exact = 3 * vertices + 2 * edges
     counted = all(economical_size(c) == 3 * len(c.vertices) + 2 * len(c.edges) for bodies in _bodies() for c in bodies)
@@ -114,9 +109,9 @@ def formula_6() -> Check:
 
 @claim("kovalevsky-schulz.157")
 def edges_at_vertex() -> Check:
-    """Check that the apex of a pyramid has as many edges as its base has sides."""
+    """Check that the apex of a pyramid has as many edges as its base has sides, for 3 to 20 sides."""
     outcomes = []
     for sides in range(3, 21):
         pyramid = polyhedron([*((k, k * k, 0) for k in range(sides)), (0, 0, 1)])
         outcomes.append(max(len(vertex.edges) for vertex in merged(pyramid).vertices) == sides)
-    return exhausted("pyramids on 3 to 20 sides", outcomes, "the apex has as many edges as the base has sides")
+    return exhibited(all(outcomes), f"in {len(outcomes)} pyramids, the apex has as many edges as the base has sides")

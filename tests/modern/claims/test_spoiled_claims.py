@@ -66,6 +66,10 @@ BY_HAND: dict[str, tuple[str, Callable[[Any], object]]] = {
     "appel-will.37": ("combinations", lambda original: lambda items, r: [*original(items, r)][1:]),
     "appel-will.80": ("findings", lambda original: lambda paper: [replace(f, produced=()) for f in original(paper)]),
     "kovalevsky-schulz.18": ("local", lambda original: lambda solid, *_: original(solid) if _ else {*solid}),
+    "kovalevsky-schulz.91": (
+        "results_of",
+        lambda original: lambda paper: [replace(result, printed=result.corrected) for result in original(paper)],
+    ),
     "kovalevsky-schulz.96": ("_is_symmetric", lambda _: lambda ring: True),
     "nakamae-nishita.61": ("draw", lambda original: lambda *made, **named: _divided_visible(original(*made, **named))),
     "thesis.3": ("programs", _without_code),
@@ -157,13 +161,15 @@ def test_stage_property_fails_for_an_altered_construction(name: str, monkeypatch
 @pytest.mark.parametrize("diameter", [8, 10])
 def test_memory_condition_names_the_right_diameters(diameter: int, monkeypatch) -> None:
     """The claim changes if a cell list is as large as Marching Cubes, or if triangles take less at other diameters."""
-    rows = sizes._table_5()
-    k = sizes.DIAMETERS.index(diameter)
-    triangles, integers, faces, _ = rows[k]
-    vertices = 2000 if diameter == 10 else 1
+    rows = {row.diameter: row for row in sizes.half_balls()}
+    row = rows[diameter]
+    integers = 5 * row.faces + 3 * (2000 if diameter == 10 else 1)
     expected = sizes.memory_requirements()
-    for spoiled in ((triangles, integers, faces, integers), (triangles, 10**6, faces, 5 * faces + 3 * vertices)):
-        monkeypatch.setattr(sizes, "_table_5", lambda row=spoiled: (*rows[:k], row, *rows[k + 1 :]))
+    for spoiled in (
+        replace(row, integers=row.triangle_integers),
+        replace(row, triangle_integers=10**6, integers=integers),
+    ):
+        monkeypatch.setattr(sizes, "half_balls", lambda row=spoiled: {**rows, diameter: row}.values())
         assert verdict(sizes.memory_requirements()) != verdict(expected)
     assert expected.holds
 
