@@ -18,16 +18,8 @@ from modern.formats import off
 from modern.formats.columns import aligned
 from modern.formats.off import parse_off
 from modern.formats.points import Input, parse_bytes
-from modern.geometry.coplanar import (
-    FLAT,
-    CoplanarError,
-    Joined,
-    distance_text,
-    join,
-    join_summary,
-    joined_mesh,
-    parse_distance,
-)
+from modern.geometry import coplanar
+from modern.geometry.coplanar import CoplanarError, Joined
 from modern.geometry.mesh import Mesh
 from modern.papers.appel_will import PRINTED, Assembled, MapError, appel_will, printed
 from modern.papers.appel_will.corners import Preprocessing, Rule
@@ -52,7 +44,7 @@ MOST_POINTS = 50
 def main(args: argparse.Namespace) -> int:
     _check_options(args)
     eye = None if args.eye is None else eye_of(args.eye.split(","))
-    within = None if args.coplanar_within is None else parse_distance(args.coplanar_within)
+    within = None if args.coplanar_within is None else coplanar.parse_distance(args.coplanar_within)
     data, name = read_input(args.points), source_name(args.points)
     source = parse_bytes(data, name)
     surfaces = parse_off(decoded(data, name), name).faces if source.kind == "off" else ()
@@ -66,7 +58,7 @@ def main(args: argparse.Namespace) -> int:
     try:
         hull = appel_will(source.points, surfaces, replace(method, inside_corners=args.inside_corners))
         mesh = None if hull.fault else as_mesh(hull, source.points)
-        joined = None if within is None or mesh is None or hull.dimension < 3 else join(mesh, within)
+        joined = None if within is None or mesh is None or hull.dimension < 3 else coplanar.join(mesh, within)
     except (MapError, CoplanarError) as error:
         raise type(error)(f"{source.source}: {error}") from None
     if args.output is not None and mesh is not None:
@@ -79,7 +71,7 @@ def main(args: argparse.Namespace) -> int:
         for index, first in hull.duplicates
     )
     if within is not None and mesh is not None:
-        print_notes([f"note: {source.source}: {FLAT if joined is None else join_summary(joined)}"])
+        print_notes([f"note: {source.source}: {coplanar.FLAT if joined is None else coplanar.join_summary(joined)}"])
     is_brief = len(source.points) > MOST_POINTS and not (args.all or args.trace)
     columns = shutil.get_terminal_size((100, 24)).columns
     report = _report(source, surfaces, hull, joined, args.trace, columns)
@@ -120,7 +112,7 @@ def _written(
         return star_svg(hull, _pair(args.star_of), name, args.width)
     if args.output.lower().endswith(".svg"):
         return solid_svg(hull, source.points, surfaces, joined, eye, name, args.width)
-    return off.write(mesh if joined is None else joined_mesh(mesh, joined))
+    return off.write(mesh if joined is None else coplanar.joined_mesh(mesh, joined))
 
 
 def _pair(text: str) -> tuple[int, int]:
@@ -160,7 +152,7 @@ def _report(
         yield f"surface {number}: {_points(surface)}"
     if joined is not None:
         yield ""
-        yield f"Topological map, faces within {distance_text(joined.within)} of one plane merged"
+        yield f"Topological map, faces within {coplanar.distance_text(joined.within)} of one plane merged"
         for number, surface in enumerate(joined_surfaces(hull, joined), 1):
             yield f"surface {number}: {_points(surface)}"
     if inputs and not hull.fault:
@@ -181,7 +173,7 @@ def _summary(source: Input, inputs: Sequence[Surface], hull: Assembled, joined: 
     yield f"loop table: {counted(len(hull.table.loops), 'loop')}{_sizes([loop.entries for loop in hull.table.loops])}"
     if joined is not None:
         surfaces = joined_surfaces(hull, joined)
-        within = distance_text(joined.within)
+        within = coplanar.distance_text(joined.within)
         yield f"faces within {within} of one plane merged: {counted(len(surfaces), 'surface')}{_sizes(surfaces)}"
     if inputs and not hull.fault:
         fates = _compared(inputs, hull, joined)

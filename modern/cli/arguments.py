@@ -8,21 +8,9 @@ The arguments of the commands on points and on volumes are defined in ``modern/c
 from argparse import ArgumentParser
 from collections.abc import Callable
 
+from modern.cli.shared import arguments as shared
 from modern.cli.shared import point_arguments, volume_arguments
-from modern.cli.shared.arguments import (
-    add,
-    compared_machine,
-    core_argument,
-    deck_argument,
-    epsilon_argument,
-    json_argument,
-    layers_argument,
-    machine_arguments,
-    output_argument,
-    program_argument,
-    result_arguments,
-    upcase_argument,
-)
+from modern.cli.shared.arguments import add
 from modern.cli.shared.console import Folder, InputFile, OutputFile
 
 
@@ -33,33 +21,35 @@ def _reproduce(parser: ArgumentParser) -> None:
     )
     add(parser, {"examples NAME": names}, nargs="*")
     add(parser, {"--show": "show each printed result next to the computed one"})
-    json_argument(parser, "verdicts")
+    shared.json_argument(parser, "verdicts")
 
 
 def _run(parser: ArgumentParser) -> None:
-    program_argument(parser, "run; without it, --operator=FILE names a log whose loads are repeated", "?")
-    deck_argument(parser, "a file of data cards, one card per line")
-    result_arguments(parser)
-    upcase_argument(parser)
+    shared.program_argument(parser, "run; without it, --operator=FILE names a log whose loads are repeated", "?")
+    shared.deck_argument(parser, "a file of data cards, one card per line")
+    shared.result_arguments(parser)
+    shared.upcase_argument(parser)
 
 
 def _hull(parser: ArgumentParser) -> None:
-    deck_argument(parser, "a data deck, one of example1 to example6, or a sample of a study, such as seventy/17", None)
+    shared.deck_argument(
+        parser, "a data deck, one of example1 to example6, or a sample of a study, such as seventy/17", None
+    )
     programs = "use program 1 as listed, or as the examples of chapter 6 were run (default: listing)"
     add(parser, {"--programs": programs}, choices=("listing", "examples"), default="listing")
     uncut = (
         "pass numbers from program 1 to the next program with all their digits instead of the eight that a card holds"
     )
     add(parser, {"--uncut": uncut})
-    epsilon_argument(parser, "punch", "on the first card, after N, and apply the layer epsilon, which reads it")
+    shared.epsilon_argument(parser, "punch", "on the first card, after N, and apply the layer epsilon, which reads it")
     explain = "explain why there is no hull, and report the first branch that exact arithmetic takes differently"
     add(parser, {"--explain": explain})
-    result_arguments(parser)
+    shared.result_arguments(parser)
 
 
 def _diverge(parser: ArgumentParser) -> None:
-    program_argument(parser, "run")
-    deck_argument(
+    shared.program_argument(parser, "run")
+    shared.deck_argument(
         parser,
         "a file of data cards, or for program2 and program3 a file of the cards that program 1 punched (may be omitted "
         "if the program reads no cards)",
@@ -70,13 +60,13 @@ def _diverge(parser: ArgumentParser) -> None:
     )
     add(parser, {"--against NAME": against}, default="exact")
     add(parser, {"--first": "stop at the first branch that differs; compare no values"})
-    json_argument(parser, "comparison")
-    compared_machine(parser)
+    shared.json_argument(parser, "comparison")
+    shared.compared_machine(parser)
 
 
 def _digits(parser: ArgumentParser) -> None:
-    program_argument(parser, "examine")
-    deck_argument(parser, "a file of data cards (may be omitted if the program reads no cards)")
+    shared.program_argument(parser, "examine")
+    shared.deck_argument(parser, "a file of data cards (may be omitted if the program reads no cards)")
     add(parser, {"--against NAME": "take this arithmetic as the truth (default: %(default)s)"}, default="exact")
     add(parser, {"--runs N": "make N stochastic runs with the digits of --arithmetic (default: 10)"}, type=int)
     add(parser, {"--seed S": "give the runs the seeds S, S + 1, ... (default: 1)"}, type=int)
@@ -92,12 +82,12 @@ def _digits(parser: ArgumentParser) -> None:
         "--samples FILE": "write the printed numbers of every run to FILE as a NumPy array, one row for each run",
     }
     add(parser, outputs, type=OutputFile)
-    compared_machine(parser)
+    shared.compared_machine(parser)
 
 
 def _listing(parser: ArgumentParser) -> None:
-    program_argument(parser, "list")
-    deck_argument(parser, "run the program with these data cards")
+    shared.program_argument(parser, "list")
+    shared.deck_argument(parser, "run the program with these data cards")
     against = (
         "count the digits that --arithmetic loses compared with this arithmetic; none skips the comparison "
         "(default: %(default)s)"
@@ -107,8 +97,8 @@ def _listing(parser: ArgumentParser) -> None:
     add(parser, {"--digits": digits})
     add(parser, {"--operator =FILE": "answer ACCEPT and PAUSE from FILE, or from a log of --log"}, type=InputFile)
     add(parser, {"--commentary": "explain the blocks of statements and the variables of a program of the thesis"})
-    output_argument(parser)
-    compared_machine(parser)
+    shared.output_argument(parser)
+    shared.compared_machine(parser)
 
 
 def _study(parser: ArgumentParser) -> None:
@@ -148,7 +138,7 @@ def _apparatus(parser: ArgumentParser) -> None:
     add(parser, {"--text FILE": text}, type=InputFile)
     collate = "compare every reading of the listings with FILE, another transcription of the listings or of a part"
     add(parser, {"--collate FILE": collate}, type=InputFile)
-    json_argument(parser, "collation")
+    shared.json_argument(parser, "collation")
     add(parser, {"--csv FILE": "with --collate: write a table with a row for each reading"}, type=OutputFile)
     weigh = (
         "alter the tokens of the listings one at a time, and record in FOLDER the first check that detects each "
@@ -180,9 +170,9 @@ def _apparatus(parser: ArgumentParser) -> None:
 
 
 def _program(parser: ArgumentParser) -> None:
-    program_argument(parser, "read")
-    layers_argument(parser)
-    upcase_argument(parser)
+    shared.program_argument(parser, "read")
+    shared.layers_argument(parser)
+    shared.upcase_argument(parser)
 
 
 def _compile(parser: ArgumentParser) -> None:
@@ -190,42 +180,42 @@ def _compile(parser: ArgumentParser) -> None:
     add(parser, {"--object": "punch the program as an object deck for IBM's library of 1962"})
     library = "with --object: put the program into DECK, an object deck with IBM's library"
     add(parser, {"--library DECK": library}, type=InputFile)
-    core_argument(parser)
-    output_argument(parser)
+    shared.core_argument(parser)
+    shared.output_argument(parser)
 
 
 def _export_job(parser: ArgumentParser) -> None:
-    program_argument(parser, "export")
-    deck_argument(parser, "a file of data cards, or a deck by name, such as example5 or example5/punched")
+    shared.program_argument(parser, "export")
+    shared.deck_argument(parser, "a file of data cards, or a deck by name, such as example5 or example5/punched")
     compiler = "write a job for FORTRAN II-D under Monitor I, or for PDQ FORTRAN"
     add(parser, {"--for": compiler}, choices=("fortran2d", "pdq"), required=True, dest="compiler")
     add(parser, {"--out DIR": "write the job to this folder"}, type=Folder, required=True)
-    machine_arguments(parser)
-    upcase_argument(parser)
+    shared.machine_arguments(parser)
+    shared.upcase_argument(parser)
 
 
 def _translate(parser: ArgumentParser) -> None:
     document = "the program to translate, or a document whose formulas are written (thesis, appel-will, ...)"
     add(parser, {"program PROGRAM.f": document}, type=InputFile, nargs="?")
-    layers_argument(parser)
-    upcase_argument(parser)
+    shared.layers_argument(parser)
+    shared.upcase_argument(parser)
     add(parser, {"--to": "write C, free-form Fortran 2018, or FPCore 2.0"}, choices=("fortran", "c", "fpcore"))
     benchmark = "write the benchmark for authors of tools to DIR: programs, formulas, decks with exact verdicts"
     add(parser, {"--benchmark DIR": benchmark}, type=Folder)
-    output_argument(parser)
+    shared.output_argument(parser)
 
 
 def _check(parser: ArgumentParser) -> None:
-    program_argument(parser, "check", "?")
+    shared.program_argument(parser, "check", "?")
     add(parser, {"--explain N": "explain an error number, such as 5 or E3; the word all explains every error number"})
-    core_argument(parser)
-    layers_argument(parser)
-    upcase_argument(parser)
+    shared.core_argument(parser)
+    shared.layers_argument(parser)
+    shared.upcase_argument(parser)
 
 
 def _flowchart(parser: ArgumentParser) -> None:
     _program(parser)
-    output_argument(parser, "FILE.svg")
+    shared.output_argument(parser, "FILE.svg")
     which = parser.add_mutually_exclusive_group()
     add(which, {"--page N": "draw page N only (default: all pages in one picture)"}, type=int)
     add(which, {"--table": "write a text table of the paths between boxes instead of a picture"})
@@ -234,7 +224,7 @@ def _flowchart(parser: ArgumentParser) -> None:
 
 def _tei(parser: ArgumentParser) -> None:
     add(parser, {"text TEXT": "a document such as program1, chapter6 or statements-thesis"}, nargs="?")
-    output_argument(parser)
+    shared.output_argument(parser)
     which = parser.add_mutually_exclusive_group()
     add(which, {"--all FOLDER": "write every document, the schema and its ODD to FOLDER"}, type=Folder)
     add(which, {"--schema": "write the RELAX NG schema of the documents"})
@@ -252,7 +242,7 @@ def _tei(parser: ArgumentParser) -> None:
 
 
 def _punched(parser: ArgumentParser) -> None:
-    deck_argument(
+    shared.deck_argument(
         parser, "a deck with one card per line, a built-in program, or an example such as example1 or seventy/17", None
     )
     output = (
@@ -265,15 +255,15 @@ def _punched(parser: ArgumentParser) -> None:
 
 
 def _map(parser: ArgumentParser) -> None:
-    program_argument(parser, "map")
-    core_argument(parser)
-    layers_argument(parser)
-    upcase_argument(parser)
+    shared.program_argument(parser, "map")
+    shared.core_argument(parser)
+    shared.layers_argument(parser)
+    shared.upcase_argument(parser)
 
 
 def _bench(parser: ArgumentParser) -> None:
     add(parser, {"--decks N": "run N decks of 51 points (default: %(default)s)"}, type=int, default=1000)
-    json_argument(parser, "figures")
+    shared.json_argument(parser, "figures")
 
 
 # Every command: its line in ``--help``, and the function that adds its arguments. The module of a command has the same

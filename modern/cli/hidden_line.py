@@ -15,19 +15,11 @@ from modern.drawing.scene import eye_of
 from modern.geometry.coplanar import parse_distance
 from modern.geometry.numbers import number
 from modern.geometry.vectors import Vector
-from modern.papers.nakamae_nishita import picture
+from modern.papers.nakamae_nishita import picture, scenes
 from modern.papers.nakamae_nishita.bodies import Reading, read_bodies
 from modern.papers.nakamae_nishita.hidden import Drawing, draw
 from modern.papers.nakamae_nishita.polyhedron import SceneError
-from modern.papers.nakamae_nishita.scenes import (
-    PERSPECTIVE,
-    SceneFile,
-    Sight,
-    names,
-    of_polyhedra,
-    read,
-    scene,
-)
+from modern.papers.nakamae_nishita.scenes import PERSPECTIVE, SceneFile, Sight
 
 _PLOTS = (".hpgl", ".plt")
 _MOST_NAMES = 5
@@ -54,16 +46,16 @@ def main(args: argparse.Namespace) -> int:
 def _scene(args: argparse.Namespace) -> SceneFile:
     """Read a scene of the project by name, a scene file, a file of faces, or a file of points whose hull is drawn."""
     path = args.scene
-    if path in names() or PurePath(path).suffix.lower() == ".toml":
+    if path in scenes.names() or PurePath(path).suffix.lower() == ".toml":
         if args.hull or args.coplanar_within is not None:
             raise UsageError(
                 "--hull and --coplanar-within need a file of faces or points; a scene file has fields for them"
             )
-        return scene(path) if path in names() else read(path)
+        return scenes.scene(path) if path in scenes.names() else scenes.read(path)
     within = None if args.coplanar_within is None else parse_distance(args.coplanar_within)
     reading = Reading(args.hull, within, True, as_hull="--hull", as_within="--coplanar-within E")
     bodies = read_bodies(read_input(path), source_name(path), reading)
-    return of_polyhedra(bodies.polyhedra, PurePath(source_name(path)).name, bodies.notes)
+    return scenes.of_polyhedra(bodies.polyhedra, PurePath(source_name(path)).name, bodies.notes)
 
 
 def _check_overwrites(output: str | None, files: Sequence[str]) -> None:

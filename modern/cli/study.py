@@ -14,7 +14,7 @@ from modern.cli.shared.console import BAD_INPUT, OK, print_error
 
 def main(args: argparse.Namespace) -> int:
     # Imported here because these modules take long to import and --help does not need them.
-    from modern.study.builtin import entries, names, study
+    from modern.study.builtin import names, study
     from modern.study.families import FAMILIES, given
     from modern.study.measures import MEASURES
     from modern.study.plan import SEED, PlanError
@@ -23,9 +23,13 @@ def main(args: argparse.Namespace) -> int:
     from modern.study.tomlplan import read_plan
 
     if args.list:
-        for entry in entries():
-            print(f"{entry.name:<14} {entry.title}")
-            print(f"{'':<14} --samples {entry.samples} (default): {entry.sets:,} samples in {entry.cells} cells")
+        for name in names():
+            built_in = study(name)
+            plan = built_in.plan(built_in.SAMPLES, SEED)
+            print(f"{name:<14} {built_in.TITLE}")
+            print(
+                f"{'':<14} --samples {built_in.SAMPLES} (default): {plan.samples:,} samples in {len(plan.cells)} cells"
+            )
         return OK
     if args.families or args.measures:
         families = {**FAMILIES, "file": given.file_family}

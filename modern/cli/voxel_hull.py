@@ -5,19 +5,10 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 from emulator.files import check_writable, write_text
+from modern.cli.shared import volumes
 from modern.cli.shared.console import OK, UsageError, check_numbered, counted, print_notes, print_report
 from modern.cli.shared.measure_tables import Row, centres_row, csv_text, filled_row, measure_lines, solid_row, table
-from modern.cli.shared.volumes import (
-    array_note,
-    choice_of,
-    coordinate_words,
-    in_space,
-    note_lines,
-    printable,
-    scan_of,
-    spacing_words,
-    volume_of,
-)
+from modern.cli.shared.volumes import printable, volume_of
 from modern.digital.hull import digital_hull
 from modern.digital.scans import label_boxes, label_notes, label_volume
 from modern.digital.solids import Volume
@@ -58,7 +49,7 @@ def _report_hull(args: argparse.Namespace) -> None:
     measures = hull.measures()
     if args.output is not None:
         write_text(args.output, _mesh(hull, args))
-    print_notes([*notes, printable(coordinate_words(volume.world, not args.centres))])
+    print_notes([*notes, printable(volumes.coordinate_words(volume.world, not args.centres))])
     print_report(args, [f"{volume.source}: {counted(volume.count, 'voxel')}"])
     print_report(args, _count_lines(hull))
     print_report(args, measure_lines(measures, volume.world.unit if volume.world else "", not args.centres))
@@ -77,7 +68,7 @@ def _fill(args: argparse.Namespace) -> None:
     print(f"filled hull of the voxels' centres ({hull.kind}): {counted(hull.voxels, 'voxel')}")
     print(f"solidity {hull.solidity}, in voxels; convex deficiency: {counted(hull.deficiency, 'voxel')}")
     if args.output is not None:
-        print_notes(printable(note) for note in array_note(args.output, volume))
+        print_notes(printable(note) for note in volumes.array_note(args.output, volume))
 
 
 # A function that writes the hull of one label to the file of the given name.
@@ -88,9 +79,9 @@ def _tabulate_labels(args: argparse.Namespace) -> None:
     """Print a table of labels, and write a file for each label; if a label fails, nothing is written."""
     from emulator.progress import Progress  # imported here because only --each-label needs it
 
-    labels = choice_of(args).labels
-    scan = scan_of(args)
-    world = in_space(scan.world, args.space)
+    labels = volumes.choice_of(args).labels
+    scan = volumes.scan_of(args)
+    world = volumes.in_space(scan.world, args.space)
     boxes = label_boxes(scan, labels)
     check_writable(*(args.output % label for label in boxes if args.output is not None), args.csv)
     hull_of_label = _filled_label if args.fill else _label
@@ -107,10 +98,10 @@ def _tabulate_labels(args: argparse.Namespace) -> None:
             write(args.output % label)
     if args.csv is not None:
         write_text(args.csv, csv_text(rows, unit))
-    print_notes(note_lines((*scan.notes, *label_notes(scan))))
-    print_notes([printable(f"{scan.source}: {counted(len(boxes), 'label')}; {spacing_words(scan.world)}")])
+    print_notes(volumes.note_lines((*scan.notes, *label_notes(scan))))
+    print_notes([printable(f"{scan.source}: {counted(len(boxes), 'label')}; {volumes.spacing_words(scan.world)}")])
     if not args.fill:
-        print_notes([printable(coordinate_words(world, not args.centres))])
+        print_notes([printable(volumes.coordinate_words(world, not args.centres))])
     print_report(args, table(rows, unit))
 
 

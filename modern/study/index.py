@@ -9,7 +9,7 @@ import json
 import sqlite3
 from collections.abc import Iterable
 from pathlib import Path
-from typing import NotRequired, TypedDict
+from typing import Any, NotRequired, TypedDict
 
 from emulator.files import reason
 from modern.study.plan import StudyFileError
@@ -29,16 +29,11 @@ CREATE TABLE IF NOT EXISTS runs (
 JUDGE = ("n", "dimension", "vertices", "planes", "boundary", "inside")
 
 
-class RouteRow(TypedDict):
-    """The result of one route for one sample, as a part of a row."""
-
-    outcome: str
-    detail: str
-    figures: dict[str, int | str]
-
-
 class Row(TypedDict):
-    """A line of a file of rows: a sample, the figures of its exact hull, and the results of the routes."""
+    """A line of a file of rows: a sample, the figures of its exact hull, and the results of the routes.
+
+    runs: the outcome, the detail and the figures of each route, by the name of the route.
+    """
 
     cell: int
     index: int
@@ -46,7 +41,7 @@ class Row(TypedDict):
     tags: NotRequired[dict[str, int | str]]
     deck: list[str]
     judge: dict[str, int]
-    runs: dict[str, RouteRow]
+    runs: dict[str, dict[str, Any]]
     checksum: NotRequired[str]
 
 

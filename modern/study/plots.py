@@ -35,7 +35,7 @@ DARK = {
 }
 MARKERS = ("o", "s", "^", "D", "v", "X")
 LINES = ("-", "--", "-.", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 1.5)), (0, (8, 2)))
-# The colours of bars, which the site uses for cards and readings too.  They are light enough to show error bars on them.
+# The colours of bars, which the site uses for cards and readings too.  They are light enough to show error bars.
 FILLS = ("#b9a982", "#f7d8cd", "#fdfcf8", "#dbe7c8", "#e4dcf0", "#d9cba8")
 HATCHES = ("", "", "", "///", "...", "xxx")
 _PALE = "#cbc3b2"

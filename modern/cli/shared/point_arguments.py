@@ -5,53 +5,41 @@ Like ``modern/cli/arguments.py``, this module imports nothing that is needed onl
 
 from argparse import ArgumentParser
 
-from modern.cli.shared.arguments import (
-    add,
-    coplanar_argument,
-    epsilon_argument,
-    eye_argument,
-    json_argument,
-    layers_argument,
-    listed,
-    output_argument,
-    points_argument,
-    printed_arguments,
-    result_file_argument,
-    title_argument,
-)
+from modern.cli.shared import arguments as shared
+from modern.cli.shared.arguments import add, listed
 from modern.cli.shared.console import InputFile
 from modern.formats import HULLS
 
 
 def cards(parser: ArgumentParser) -> None:
-    points_argument(parser)
-    output_argument(parser, "DECK")
+    shared.points_argument(parser)
+    shared.output_argument(parser, "DECK")
     add(parser, {"--truncate": "truncate numbers with more digits than a card holds instead of failing"})
-    epsilon_argument(parser, "punch", "on the first card, after N, for the layer epsilon")
+    shared.epsilon_argument(parser, "punch", "on the first card, after N, for the layer epsilon")
 
 
 def diff(parser: ArgumentParser) -> None:
-    points_argument(parser)
-    epsilon_argument(parser, "use", "in the layer epsilon and in the port, or rel:E in the port only")
-    json_argument(parser, "comparison")
+    shared.points_argument(parser)
+    shared.epsilon_argument(parser, "use", "in the layer epsilon and in the port, or rel:E in the port only")
+    shared.json_argument(parser, "comparison")
     add(parser, {"--explain": "if a program gives no hull, explain the reason"})
-    layers_argument(parser)
+    shared.layers_argument(parser)
 
 
 def export(parser: ArgumentParser) -> None:
-    points_argument(parser)
+    shared.points_argument(parser)
     endings = listed(f".{name}" for name in HULLS)
-    output_argument(parser, formats=f" in the format of its ending, {endings}, or in the format of --format")
+    shared.output_argument(parser, formats=f" in the format of its ending, {endings}, or in the format of --format")
     add(parser, {"--format": "write this format (default: the format of the ending)"}, choices=tuple(HULLS))
-    coplanar_argument(parser)
+    shared.coplanar_argument(parser)
 
 
 def draw(parser: ArgumentParser) -> None:
-    points_argument(parser)
-    output_argument(parser, formats=" as SVG (.svg), or with the extra plot as PDF or PNG")
+    shared.points_argument(parser)
+    shared.output_argument(parser, formats=" as SVG (.svg), or with the extra plot as PDF or PNG")
     parser.set_defaults(endings=(".svg", ".pdf", ".png"))
-    eye_argument(parser)
-    title_argument(parser, "the name of the file")
+    shared.eye_argument(parser)
+    shared.title_argument(parser, "the name of the file")
     _width_argument(parser)
     labels = (
         "label the vertices with the numbers that the 1963 programs give them, with their positions in the input, or "
@@ -63,7 +51,7 @@ def draw(parser: ArgumentParser) -> None:
         "--no-points": "omit the points that are not vertices",
     }
     add(parser, omitted)
-    coplanar_argument(parser)
+    shared.coplanar_argument(parser)
     which = parser.add_mutually_exclusive_group()
     against = "highlight differences from the hull on CARDS, punched by hull1620 hull"
     add(which, {"--against CARDS": against}, type=InputFile)
@@ -75,8 +63,8 @@ def draw(parser: ArgumentParser) -> None:
 
 
 def appel_will(parser: ArgumentParser) -> None:
-    points_argument(parser, "FILE", " (the surfaces of an OFF file are read too)")
-    printed_arguments(parser, "rule", "star, step3, step5, step7, step9, step10")
+    shared.points_argument(parser, "FILE", " (the surfaces of an OFF file are read too)")
+    shared.printed_arguments(parser, "rule", "star, step3, step5, step7, step9, step10")
     inside_corners = (
         "delete points on inside corners first, by the rule any (valid if no point is on more than three planes), two "
         "or concave (always valid)"
@@ -87,16 +75,16 @@ def appel_will(parser: ArgumentParser) -> None:
         "--all": "print all tables (default: only a summary for more than 50 points)",
     }
     add(parser, tables)
-    result_file_argument(parser, "the hull (.off), or a drawing with its convex edges (.svg)")
+    shared.result_file_argument(parser, "the hull (.off), or a drawing with its convex edges (.svg)")
     parser.set_defaults(endings=(".off", ".svg"))
     pictures = {
         "--map": "with -o FILE.svg: draw the planar topological map instead",
         "--star-of I-J": "with -o FILE.svg: draw the star polygon of the line between points I and J instead",
     }
     add(parser.add_mutually_exclusive_group(), pictures)
-    eye_argument(parser)
+    shared.eye_argument(parser)
     _width_argument(parser)
-    coplanar_argument(parser)
+    shared.coplanar_argument(parser)
 
 
 def hidden_line(parser: ArgumentParser) -> None:
@@ -105,9 +93,9 @@ def hidden_line(parser: ArgumentParser) -> None:
         "scenes cuboids, columns and house"
     )
     add(parser, {"scene SCENE": scene}, type=InputFile)
-    result_file_argument(parser, "SVG (.svg) or HPGL (.hpgl, .plt) (default: SVG to standard output)")
+    shared.result_file_argument(parser, "SVG (.svg) or HPGL (.hpgl, .plt) (default: SVG to standard output)")
     parser.set_defaults(endings=(".svg", ".hpgl", ".plt"))
-    eye_argument(parser)
+    shared.eye_argument(parser)
     views = {
         "--perspective": "draw in perspective, with --eye as the eye point",
         "--towards X,Y,Z": "in perspective: look at this point (default: the middle of the scene)",
@@ -117,7 +105,7 @@ def hidden_line(parser: ArgumentParser) -> None:
         "convex)",
     }
     add(parser, views)
-    coplanar_argument(parser)
+    shared.coplanar_argument(parser)
     tables = {
         "--hidden": "draw hidden lines too, dashed",
         "--tables": "print the contours, the paper's tables PL, LP and d for each pair of overlapping contours, and "
@@ -129,7 +117,7 @@ def hidden_line(parser: ArgumentParser) -> None:
         "(default: omit nothing)"
     )
     add(parser, {"--without CORRECTION,...": without}, default="")
-    title_argument(parser, "the scene's title")
+    shared.title_argument(parser, "the scene's title")
     add(parser, {"--width PIXELS": "draw the SVG this many pixels wide (default: 640)"}, type=int, default=640)
 
 

@@ -1,12 +1,10 @@
 """The built-in studies by name.  Each module of this package defines one study, as :class:`Study` describes."""
 
-from collections.abc import Iterator
-from dataclasses import dataclass
 from importlib import import_module
 from pkgutil import iter_modules
 from typing import Protocol
 
-from modern.study.plan import SEED, Plan
+from modern.study.plan import Plan
 from modern.study.report import Report
 from modern.study.store import Store
 
@@ -26,20 +24,6 @@ class Study(Protocol):
     def report(self, plan: Plan, store: Store) -> Report: ...
 
 
-@dataclass(frozen=True, slots=True)
-class Entry:
-    """A built-in study as ``--list`` shows it.
-
-    samples: the default of ``--samples``.  sets, cells: the number of point sets and of cells that this makes.
-    """
-
-    name: str
-    title: str
-    samples: int
-    sets: int
-    cells: int
-
-
 def names() -> tuple[str, ...]:
     """Return the names of the built-in studies."""
     return tuple(sorted(module.name.replace("_", "-") for module in iter_modules(__path__)))
@@ -51,11 +35,3 @@ def study(name: str) -> Study:
         raise KeyError(name)
     module: Study = import_module(f"{__name__}.{name.replace('-', '_')}")
     return module
-
-
-def entries() -> Iterator[Entry]:
-    """Yield the entries of all built-in studies."""
-    for name in names():
-        module = study(name)
-        plan = module.plan(module.SAMPLES, SEED)
-        yield Entry(name, module.TITLE, module.SAMPLES, plan.samples, len(plan.cells))

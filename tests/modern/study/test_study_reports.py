@@ -13,7 +13,7 @@ from emulator.errors import EmulatorError
 from modern.cli.main import main
 from modern.geometry.hull import NOT_ACCEPTABLE
 from modern.study import Plan, PlanError, Port, Programs, refusals, run_study
-from modern.study.builtin import entries, names, seventy, study
+from modern.study.builtin import names, seventy, study
 from modern.study.families import FAMILIES
 from modern.study.measures import MEASURES
 from modern.study.outcomes import DETERMINED, OUTCOMES
@@ -139,11 +139,11 @@ def test_seventy_requires_a_multiple_of_70_samples(samples: int) -> None:
 
 def test_every_built_in_study_has_a_plan_of_its_name() -> None:
     assert "seventy" in names()
-    for entry in entries():
-        module = study(entry.name)
+    for name in names():
+        module = study(name)
         plan = module.plan(module.SAMPLES, 1)
         check_plan(plan)
-        assert plan.name == entry.name, "the name of a plan is that of its file with - for _"
+        assert plan.name == name, "the name of a plan is that of its file with - for _"
         assert plan.seed == 1
         assert len({cell.name for cell in plan.cells}) == len(plan.cells)
         assert plan.document() == module.plan(module.SAMPLES, 1).document() == json.loads(json.dumps(plan.document()))
