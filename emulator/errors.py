@@ -89,9 +89,9 @@ class Diagnostic:
 
 
 def merge_repeated(diagnostics: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
-    """Yield the messages in the order of their cards.
+    """Yield the messages in the order of their cards, and merge messages with the same subject.
 
-    Messages that have the same subject are merged into one, which lists the cards of all of them.
+    A merged message lists the cards of all its messages.
     """
     ordered = sorted(dict.fromkeys(diagnostics), key=lambda d: (d.card, d.column))
     cards: dict[str, list[int]] = {}

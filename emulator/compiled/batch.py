@@ -99,7 +99,6 @@ def _runner(program: Program, options: Options, note: Note | None) -> Runner | N
 
 
 def _result(program: Program, deck: Deck, options: Options, run: Run) -> Result:
-    """Convert a compiled run to the result that the interpreter would return for the deck."""
     lines: dict[str, list[str]] = {"P": [], "T": []}
     events: list[Event] = []
     cards = iter(deck.cards)
@@ -142,7 +141,6 @@ def _result(program: Program, deck: Deck, options: Options, run: Run) -> Result:
 
 
 def _ending(program: Program, options: Options, run: Run) -> Ending:
-    """Convert the reason for the end of a compiled run to the ending that the interpreter would report."""
     registers = run.registers
     at, decision, costly = registers[kernel.AT], registers[kernel.DECISION], registers[kernel.COSTLY]
     if run.reason == devices.AT_HOPPER:

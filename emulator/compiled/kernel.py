@@ -68,47 +68,37 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
         subscript = subscripts[pc]
         if subscript >= 0:
             # A subscript has eight numbers: variable, factor, constant and size of the first dimension, and then of the
-            # second one.
+            # second one.  An array of one dimension has the size 0 and the constant 1 in the second.
+            row, rows = table[subscript + 2], table[subscript + 3]
+            column, columns = table[subscript + 6], table[subscript + 7]
             variable = table[subscript]
-            row = table[subscript + 2]
-            rows = table[subscript + 3]
-            columns = table[subscript + 7]
             if variable >= 0:
                 if exponents[variable] != FIXED_POINT:
                     address = variable
                     reason = interpreter.AT_UNDEFINED
                     break
                 row += table[subscript + 1] * mantissas[variable]
-            if columns == 0:
-                if strict and (row < 1 or row > rows):
-                    # The copy of element N+1 of an array is undefined, which is harmless unless a statement computes
-                    # with the copy.
-                    if operation == op.SEND and row == rows + 1:
-                        sent = 0
-                        sent_exponent = UNDEFINED
-                        pc += 1
-                        continue
-                    registers[INDEX] = row
-                    registers[INDEX2] = 0
-                    reason = interpreter.AT_BOUNDS
+            variable = table[subscript + 4]
+            if variable >= 0:
+                if exponents[variable] != FIXED_POINT:
+                    address = variable
+                    reason = interpreter.AT_UNDEFINED
                     break
-                address += row - 1
-            else:
-                variable = table[subscript + 4]
-                column = table[subscript + 6]
-                if variable >= 0:
-                    if exponents[variable] != FIXED_POINT:
-                        address = variable
-                        reason = interpreter.AT_UNDEFINED
-                        break
-                    column += table[subscript + 5] * mantissas[variable]
-                if strict and (row < 1 or row > rows or column < 1 or column > columns):
-                    registers[INDEX] = row
-                    registers[INDEX2] = column
-                    reason = interpreter.AT_BOUNDS
-                    break
-                # Arrays are stored column by column.
-                address += row - 1 + rows * (column - 1)
+                column += table[subscript + 5] * mantissas[variable]
+            if strict and (row < 1 or row > rows or (columns > 0 and (column < 1 or column > columns))):
+                # The copy of element N+1 of an array is undefined, which is harmless unless a statement computes with
+                # the copy.
+                if operation == op.SEND and row == rows + 1 and columns == 0:
+                    sent = 0
+                    sent_exponent = UNDEFINED
+                    pc += 1
+                    continue
+                registers[INDEX] = row
+                registers[INDEX2] = column
+                reason = interpreter.AT_BOUNDS
+                break
+            # Arrays are stored column by column.
+            address += row - 1 + rows * (column - 1)
             if address < 0 or address >= size:
                 reason = interpreter.AT_OUTSIDE
                 break
@@ -300,16 +290,7 @@ def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit
             break
     # AT is the instruction that caused the return.  PC still points to it after an error, and beyond it after a request
     # for a service.
-    stays = reason in (
-        interpreter.AT_UNDEFINED,
-        interpreter.AT_BOUNDS,
-        interpreter.AT_OUTSIDE,
-        interpreter.AT_SELECT,
-        interpreter.AT_LIMIT,
-        interpreter.AT_STOP,
-        interpreter.AT_COSTLY,
-    )
-    registers[AT] = pc if stays or element > 0 else pc - 1
+    registers[AT] = pc if reason >= interpreter.AT_LIMIT or element > 0 else pc - 1
     registers[ELEMENT] = element
     registers[PC] = pc
     registers[FAC] = fac

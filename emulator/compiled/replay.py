@@ -128,10 +128,10 @@ def exactly(tape: Tape, digits: int) -> list[Number]:
     values: list[Any] = list(_leaves(tape, digits))
     largest = decimal.Decimal(10**digits - 1).scaleb(99 - digits)
     try:
-        _follow(tape, values, exact.add, exact.subtract, exact.multiply, _or(largest, exact.divide), exact.minus)
+        _follow(tape, values, (exact.add, exact.subtract, exact.multiply, _or(largest, exact.divide)), exact.minus)
     except decimal.Inexact:
         values = [Fraction(value) for value in _leaves(tape, digits)]
-        _follow(tape, values, o.add, o.sub, o.mul, _or(Fraction(largest), o.truediv), o.neg)
+        _follow(tape, values, (o.add, o.sub, o.mul, _or(Fraction(largest), o.truediv)), o.neg)
     return values
 
 
@@ -139,30 +139,17 @@ def _or(largest: Number, divide: _Operation) -> _Operation:
     return lambda dividend, divisor: divide(dividend, divisor) if divisor else largest
 
 
-def _follow(
-    tape: Tape,
-    values: list[Any],
-    plus: _Operation,
-    minus: _Operation,
-    times: _Operation,
-    over: _Operation,
-    negated: Callable[[Any], Any],
-) -> None:
-    """Repeat the operations of a tape with the given functions.
+def _follow(tape: Tape, values: list[Any], functions: Sequence[_Operation], negate: Callable[[Any], Any]) -> None:
+    """Repeat the operations of a tape with the functions for ADD, SUBTRACT, MULTIPLY and DIVIDE, and for NEGATE.
 
     ``values`` holds the input numbers and receives the results.
     """
+    named = dict(zip((ADD, SUBTRACT, MULTIPLY, DIVIDE), functions, strict=True))
     for k, (operation, i, j) in enumerate(zip(tape.operations, tape.firsts, tape.seconds, strict=True)):
-        if operation == MULTIPLY:
-            values[k] = times(values[i], values[j])
-        elif operation == ADD:
-            values[k] = plus(values[i], values[j])
-        elif operation == SUBTRACT:
-            values[k] = minus(values[i], values[j])
-        elif operation == NEGATE:
-            values[k] = negated(values[i])
-        elif operation == DIVIDE:
-            values[k] = over(values[i], values[j])
+        if operation == NEGATE:
+            values[k] = negate(values[i])
+        elif operation != LEAF:
+            values[k] = named[operation](values[i], values[j])
 
 
 def enclosed(tape: Tape, digits: int) -> list[Interval]:
@@ -182,7 +169,6 @@ def enclosed(tape: Tape, digits: int) -> list[Interval]:
             return -_ENDLESS, _ENDLESS
 
     values: list[Any] = [(leaf, leaf) for leaf in _leaves(tape, digits)]
-    operations = (system.add, system.subtract, system.multiply, system.divide)
-    plus, minus, times, over = (partial(bounded, operation) for operation in operations)
-    _follow(tape, values, plus, minus, times, over, system.negate)
+    operations = system.add, system.subtract, system.multiply, system.divide
+    _follow(tape, values, [partial(bounded, operation) for operation in operations], system.negate)
     return values

@@ -33,7 +33,7 @@ BLOCK = 128
 # The initial and the largest size of a block's log in bytes.  A deck that needs more runs in the interpreter.
 LOG_ROOM, MOST_LOG_ROOM = 1 << 20, 1 << 26
 
-# The keys of Result.numbers, in the order in which the rows of Report.numbers count them.
+# The keys of Result.numbers, in the order of the counts in a row of Report.numbers.
 WAYS = ("E<", "E>", "F<", "F>", "I<", "I>")
 
 _VERBS = {"READ": devices.READ, "PUNCH": devices.PUNCH, "ACCEPT": devices.ACCEPT}
@@ -193,7 +193,6 @@ class Runner:
                     at += 1
 
     def _arguments(self, packed: list[bytes]) -> tuple[Any, ...]:
-        """Return the arguments with which the compiled function runs these decks."""
         first = _row(accumulate((len(deck) // COLUMNS for deck in packed), initial=0))
         cards = devices.Cards(_codes(b"".join(packed)), first)
         return self.code, self.forms, self.start, cards, self.core, self.tools, self.report, self.rules, self.setting

@@ -119,7 +119,6 @@ def _shown(line: str) -> Iterator[None]:
 
 
 def _refused(error: Exception) -> NotInstalled:
-    """Convert an exception of numba to a NotInstalled error with a one-line message."""
     message = next(iter(str(error).strip().splitlines()), "")
     return NotInstalled(f"numba cannot compile the code: {type(error).__name__}{': ' if message else ''}{message}")
 

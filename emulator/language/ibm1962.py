@@ -33,21 +33,8 @@ ALONE = {"RSGN": 2546, "FLOAT": 3222, "FIX": 3494}
 OPEN, CLOSE, SLASH, LITERAL = 4044, 4076, 4136, 4264
 KINDS = {"E": 5, "F": 6, "I": 9}
 
-_SPECIAL = {
-    " ": 0,
-    ".": 3,
-    ")": 4,
-    "+": 10,
-    "$": 13,
-    "*": 14,
-    "-": 20,
-    "/": 21,
-    ",": 23,
-    "(": 24,
-    "=": 33,
-    "@": 34,
-    "'": 34,
-}
+# The two-digit codes of the special characters.
+_SPECIAL = dict(zip(" .)+$*-/,(=@'", (0, 3, 4, 10, 13, 14, 20, 21, 23, 24, 33, 34, 34), strict=True))
 _NUMBER = re.compile(r"([+-]?)\.(\d{8})E([+-])(\d\d)")
 
 

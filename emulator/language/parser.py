@@ -151,7 +151,7 @@ def _foreign_message(place: tree.Place, foreign: ForeignStatement) -> Diagnostic
 def _statement_function(body: tree.Body, arrays: Collection[str]) -> str:
     """Return the name of the function that an assignment such as ``F(X) = X+1.`` defines, or an empty string.
 
-    Its arguments are all names.  At least one of them is floating point, so that it cannot be an array element.
+    All arguments are names, and at least one name is floating point, so that ``F(X)`` cannot be an array element.
     """
     if not isinstance(body, tree.Assignment) or not body.target.arguments or body.target.name in arrays:
         return ""
@@ -230,7 +230,6 @@ def _depth(text: str) -> int:
 
 @lru_cache(1024)
 def _tree(text: str, kind: str) -> Tree[Token]:
-    """Return lark's syntax tree of a statement, from a cache if the text has been parsed before."""
     return _grammar().parse(text, start=kind)
 
 
@@ -338,9 +337,6 @@ class _Builder:
 
     def dimension(self, children: list[tuple[str, tuple[int, ...], tree.Place]]) -> tree.Dimension:
         return tree.Dimension(tuple(children))
-
-    def item(self, children: list[Any]) -> tree.Item:
-        return children[0]  # type: ignore[no-any-return]
 
     def loop(self, children: list[Any]) -> tree.Loop:
         *items, variable, first, last, step = children

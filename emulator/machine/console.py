@@ -124,7 +124,6 @@ def _entries(session: Session) -> list[Entry]:
 
 
 def _variables(session: Session, width: int) -> Iterator[str]:
-    """Yield every variable with its value, and for arrays the number of defined elements."""
     for entry in _entries(session):
         if entry.shape:
             kinds = session.state.kinds[entry.first : entry.first + entry.size]

@@ -118,8 +118,8 @@ class Devices:
         self._charge = self._charges[number]
         self.listed = []
         if verb == "READ":
-            # The READ that the program executed first is the one that begins each data set.  An empty hopper ends the
-            # run normally at this READ, and with ``--hopper any`` at any READ.
+            # The READ that the program executes first begins each data set.  An empty hopper ends the run normally at
+            # this READ, and with ``--hopper any`` at any READ.
             begins = self._first_read in (-1, self.state.at)
             if begins:
                 self._first_read = self.state.at

@@ -28,7 +28,7 @@ class Ending:
 
     - stop, end: normal ends, without other fields.
     - hopper: a normal end.  ``line`` is the READ that found the hopper empty.  ``any_read`` is True if the options
-      allow this end at any READ, not only at the one that begins a data set.  A message then reports it.
+      allow this end at any READ, not only at the READ that begins a data set.  A note after the run then reports it.
     - limit: ``count`` is the limit.  ``costly`` is the part of the work that was done by operations that take longer
       than a statement.  ``line`` is set if a single operation would exceed the limit.  ``loop`` holds the statements
       executed last, in the order of their cards; ``repeats`` means that each of them was executed more than once.
@@ -97,7 +97,6 @@ class Ending:
 
 
 def _trouble_in(ending: Ending, line: Line) -> str:
-    """Return the sentence that explains why a run ended at the statement ``line``."""
     there = f"in {line.label} {line.text}" if line.label else f"in {line.text}"
     match ending.kind:
         case "limit":
@@ -200,7 +199,7 @@ def ended_by(
         return replace(here, kind="select", subscripts=subscripts[:1])
     if reason == AT_UNDEFINED:
         here = replace(here, kind="undefined", name=program.storage.name_of(address))
-        # The same reason applies to a field with a number of the other mode.
+        # The interpreter returns this reason also for a field that holds a number of the other mode.
         if kind != UNDEFINED:
             return replace(here, kind="mode", mode="fixed" if kind == FIXED_POINT else "floating")
     return here

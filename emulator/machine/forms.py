@@ -84,7 +84,6 @@ class _Walk(ABC):
         return None
 
     def _pass_spec(self) -> None:
-        """Process the current specification, which is a text field or a slash."""
         spec = self.layout.spec.specs[self.at]
         if isinstance(spec, Literal):
             self._literal(len(spec.text))

@@ -26,9 +26,9 @@ from emulator.numbers.base import Numbers, Trap
 TOFAC, FMFAC, FAD, FSB, FSBR, FMP, FDV, FDVR = range(op.TOFAC, op.FDVR + 1)
 SEND, TRANSMIT, COUNT, BRANCH, IF, DOTEST = op.SEND, op.TRANSMIT, op.COUNT, op.BRANCH, op.IF, op.DOTEST
 
-# The reasons to return to the session.
-AT_LIMIT, AT_STATEMENT, AT_BEGIN, AT_ITEM, AT_FINISH, AT_FUNCTION, AT_POWER, AT_POWERX, AT_PAUSE = range(9)
-AT_STOP, AT_EVENT, AT_UNDEFINED, AT_BOUNDS, AT_OUTSIDE, AT_SELECT, AT_COSTLY = range(9, 16)
+# The reasons to return to the session: first those after which the run continues with the next instruction.
+AT_STATEMENT, AT_BEGIN, AT_ITEM, AT_FINISH, AT_FUNCTION, AT_POWER, AT_POWERX, AT_PAUSE, AT_EVENT = range(9)
+AT_LIMIT, AT_STOP, AT_UNDEFINED, AT_BOUNDS, AT_OUTSIDE, AT_SELECT, AT_COSTLY = range(9, 16)
 
 # The units of work by which a statement may exceed the limit of the run, because the limit is checked only when a
 # statement begins.  SLACK allows a list with the largest possible array to finish.
@@ -45,8 +45,8 @@ _REASONS |= {op.POWER: AT_POWER, op.POWERX: AT_POWERX}
 def is_minus_zero(operation: int, first: bool, second: bool) -> bool:
     """Return True if IBM's library of 1962 would give a fixed-point result of zero a minus sign.
 
-    A sum has the sign of the accumulator, and a product or quotient that of its operands.  ``first`` and ``second``
-    tell whether the accumulator and the operand are negative.
+    A zero sum has the sign of the accumulator.  A zero product or quotient is negative if the signs of its operands
+    differ.  ``first`` is True if the accumulator is negative, ``second`` if the operand is negative.
     """
     if operation <= op.XSBR:
         return first != (operation == op.XSBR)
@@ -353,8 +353,7 @@ def run(
     finally:
         # ``at`` is the instruction that caused the return.  ``pc`` is already beyond an instruction that requests a
         # service.  After an error that ends the run, and between two elements of an array, ``pc`` still points to it.
-        stays = reason in (AT_UNDEFINED, AT_BOUNDS, AT_OUTSIDE, AT_SELECT, AT_LIMIT, AT_STOP, AT_COSTLY)
-        state.at = pc if stays or element else pc - 1
+        state.at = pc if reason >= AT_LIMIT or element else pc - 1
         state.pc, state.fac, state.fixed, state.work, state.stored = pc, fac, fixed, work, stored
         state.sent, state.sent_kind, state.event, state.address = sent, sent_kind, event, address
         state.element, state.decision = element, decision

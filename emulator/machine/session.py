@@ -285,7 +285,7 @@ class Session:
         return interpreter.run(*machine, goal, self.options.limit, strict, traced, self.journal, self._enters)
 
     def _serve(self, reason: int) -> None:
-        """Do what the interpreter cannot: input, output or a library function.  Raise Ended if the run ends here."""
+        """Perform the service that the interpreter requests, such as input.  Raise Ended if the run ends instead."""
         state, numbers = self.state, self.options.numbers
         address = state.address
         if reason == interpreter.AT_ITEM:

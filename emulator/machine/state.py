@@ -48,7 +48,7 @@ def recorded_instructions(program: Program) -> list[bool]:
         if operation == ITEM:
             recorded.append(reading)
         else:
-            # Only arrays have subscripts; the other fields without a name hold intermediate results.
+            # A subscripted instruction changes an array element.  Fields without a name hold intermediate results.
             stores = operation in (FMFAC, FMFIX, TRANSMIT)
             recorded.append(stores and (instruction.subscript >= 0 or instruction.address in named))
     return recorded

@@ -12,12 +12,13 @@ p. 1 and 3).
 from __future__ import annotations
 
 from collections import Counter as Tally
+from collections.abc import Iterator
 from dataclasses import dataclass
 from math import inf
 
 from emulator.errors import expect
 from emulator.language import objectcode as op
-from emulator.language.objectcode import Program
+from emulator.language.objectcode import Instruction, Program
 from emulator.machine.result import Result
 
 READER_SECONDS = 60 / 250
@@ -52,20 +53,14 @@ COSTS = {
     **_costs(CONTROL, SWITCH=0.3, PAUSE=0.16, STOP=0.16),
     **_costs(CONVERSION, BEGIN=0, ITEM=0, FINISH=0),
 }
-# COUNT does not exist on the machine and costs nothing.  The time of an ITEM is that of its conversion, FIELD_COSTS.
-# BEGIN and FINISH are counted by record, RECORD_COSTS, because a list can read or write several records.
+# COUNT does not exist on the machine and costs nothing.  An ITEM takes the time of converting its number (FIELD_COSTS).
+# The time of BEGIN and FINISH is counted for each record (RECORD_COSTS), because a list can use several records.
 
 SUBSCRIPT = Cost(1.2, SUBSCRIPTS)
 SUBSCRIPT_2 = Cost(4.7, SUBSCRIPTS)
 # The cost of a number read (<) or written (>), at the usual widths E14.8, F10.4 and I3.
-FIELD_COSTS = {
-    "E<": Cost(150, CONVERSION),
-    "F<": Cost(107, CONVERSION),
-    "I<": Cost(41, CONVERSION),
-    "E>": Cost(80, CONVERSION),
-    "F>": Cost(54, CONVERSION),
-    "I>": Cost(32, CONVERSION),
-}
+_FIELD_TIMES = {"E<": 150, "F<": 107, "I<": 41, "E>": 80, "F>": 54, "I>": 32}
+FIELD_COSTS = {kind: Cost(time, CONVERSION) for kind, time in _FIELD_TIMES.items()}
 # The cost of a card read (<), or of a card or line written (>).  The library prepares each column of a record.
 RECORD_COSTS = {"<": Cost(22, CONVERSION), ">": Cost(319, CONVERSION)}
 
@@ -150,12 +145,7 @@ def measure(program: Program, result: Result) -> Timing:
     expect(result, Result, "result")
     operations: Tally[str] = Tally()
     subscripts: Tally[int] = Tally()
-    times = 0
-    # All instructions up to the next COUNT run equally often.  After a run that ends within a statement, the table
-    # includes the rest of that statement.
-    for instruction in program.code:
-        if instruction.operation == op.COUNT:
-            times = result.counts[instruction.address]
+    for instruction, times in _executions(program, result):
         operations[op.NAMES[instruction.operation]] += times * op.repeats(instruction)
         if instruction.subscript >= 0:
             subscripts[2 if program.subscripts[instruction.subscript].columns else 1] += times
@@ -198,12 +188,10 @@ def shares(program: Program, result: Result) -> tuple[Time, ...]:
     """
     times_of = [Time()] * len(program.statements)
     lists: dict[str, Tally[int]] = {}
-    times, direction = 0, ""
-    for instruction, statement in zip(program.code, program.statement_numbers, strict=True):
+    direction = ""
+    for (instruction, times), statement in zip(_executions(program, result), program.statement_numbers, strict=True):
         milliseconds = COSTS[op.NAMES[instruction.operation]].milliseconds
-        if instruction.operation == op.COUNT:
-            times = result.counts[instruction.address]
-        elif instruction.operation == op.BEGIN:
+        if instruction.operation == op.BEGIN:
             verb = program.verbs[instruction.address]
             direction = "<" if verb in ("READ", "ACCEPT") else ">"
             if verb != "ACCEPT":
@@ -215,8 +203,7 @@ def shares(program: Program, result: Result) -> tuple[Time, ...]:
             two = program.subscripts[instruction.subscript].columns
             milliseconds += (SUBSCRIPT_2 if two else SUBSCRIPT).milliseconds
         times_of[statement] += modelled(times * milliseconds / 1000)
-    # An instruction distinguishes only fixed from floating point, so F fields are counted as E fields, which cost the
-    # same.
+    # An ITEM instruction distinguishes only fixed from floating point, so the times of E and F fields are added.
     conversion = {way: n * RECORD_COSTS[way].milliseconds / 1000 for way, n in _records(program, result).items()}
     for kind, count in result.numbers:
         mode = kind.replace("F", "E")
@@ -232,13 +219,20 @@ def _records(program: Program, result: Result) -> dict[str, int]:
 
     An execution of a statement that types counts as one line.
     """
-    typed = times = 0
+    begins = [pair for pair in _executions(program, result) if pair[0].operation == op.BEGIN]
+    typed = sum(times for begin, times in begins if program.verbs[begin.address] in ("TYPE", "PRINT"))
+    return {"<": result.cards_read, ">": result.cards_punched + typed}
+
+
+def _executions(program: Program, result: Result) -> Iterator[tuple[Instruction, int]]:
+    """Yield each instruction with the number of its executions."""
+    # All instructions up to the next COUNT run equally often.  After a run that ends within a statement, the rest of
+    # that statement is counted too.
+    times = 0
     for instruction in program.code:
         if instruction.operation == op.COUNT:
             times = result.counts[instruction.address]
-        elif instruction.operation == op.BEGIN and program.verbs[instruction.address] in ("TYPE", "PRINT"):
-            typed += times
-    return {"<": result.cards_read, ">": result.cards_punched + typed}
+        yield instruction, times
 
 
 def _row(cause: str, costs: list[tuple[int, Cost]]) -> Row:

@@ -167,7 +167,6 @@ class _Generator:
         return ends_in_branch and not self.program.line_at(pc).label
 
     def _code(self, instruction: Instruction, pc: int) -> str:
-        """Return the digits of 1620 code for one instruction of the emulator's object code."""
         operation = instruction.operation
         if operation in d.PLAIN_ENTRIES:
             return self._call(f"{d.PLAIN_ENTRIES[operation]:05d}", instruction)
@@ -218,7 +217,6 @@ class _Generator:
         return f"{d.CALL}{entry:05d}{entry - 1:05d}"
 
     def _targets(self, branch: int) -> list[str]:
-        """Return the addresses of all statements to which a branch instruction may branch."""
         pcs = self.program.branches[branch]
         return [address(self.addresses.branch(self.program.line_at(pc).label)) for pc in pcs]
 

@@ -1,8 +1,8 @@
 """Export a program as a job for one of two compilers of the 1960s: FORTRAN II-D under Monitor I, or PDQ FORTRAN.
 
 A job is a folder of text files for the 1620 simulator of SIMH.  It contains no code of IBM's: the operator adds the
-compiler.  The program is exported card by card.  A card changes only if the compiler does not accept it as it is, and
-:attr:`Job.changes` records each change.  The rules were measured with both compilers under Open SIMH.
+compiler.  The program is exported card by card.  A card is changed only if the compiler does not accept it, and
+:attr:`Job.changes` records each change.  The rules were found by running both compilers under Open SIMH.
 """
 
 import re
@@ -37,7 +37,8 @@ _SIXTY_THOUSAND = (
     "||PAUS",
 )
 
-# PDQ's compiler stops at a jump to the end of a DO from outside of it.  Statement 191 is the next statement there.
+# PDQ's compiler stops at a jump from outside a DO to the last statement of the DO.  Program 2 has such a jump, to
+# statement 184.  In the job the jump goes to 191, the statement after 184.
 _FOR_PDQ = {"IF(E(I))112,184,180": "IF (E(I))112,191,180"}
 
 
@@ -52,7 +53,7 @@ class Change:
 
 @dataclass(frozen=True, slots=True)
 class Job:
-    """A job for a compiler of the 1960s: the program as that compiler reads it, its data, and the changes made."""
+    """A job for a compiler of the 1960s: the program as the compiler reads it, the data, and the changes made."""
 
     compiler: Compiler
     source: tuple[str, ...]
@@ -60,7 +61,7 @@ class Job:
     changes: tuple[Change, ...]
 
     def cards(self) -> Iterator[str]:
-        """Yield the cards for FORTRAN II-D: a job that sets up 60,000 positions, and the job of the program."""
+        """Yield the cards for FORTRAN II-D: a job that sets the size of core storage, and the job of the program."""
         for card in _SIXTY_THOUSAND, _COLD_START:
             yield from card
         yield "||JOB 5                      HULL1620"
@@ -71,7 +72,7 @@ class Job:
         yield "||||"
 
     def script(self, switches: Collection[int]) -> str:
-        """Return commands for the simulator SIMH. ``switches`` are the sense switches that are on during the run."""
+        """Return commands for the simulator SIMH.  ``switches`` are the sense switches that are on during the run."""
         lines = _monitor(switches) if self.compiler == "fortran2d" else _pdq(switches)
         return "".join(
             f"{line}\n" for line in (*lines, "! python3 check.py compare expected.cards punched.cards", "quit")
@@ -112,8 +113,8 @@ def job(deck: Deck, program: Program, data: Deck, compiler: Compiler) -> Job:
 def clearing(program: Program, labels: Collection[str]) -> Iterator[str]:
     """Yield cards that set all arrays of a program to zero.
 
-    On the 1620, an array begins with the previous contents of the storage.  The programs of the thesis read the element
-    after the last point, so that their results depend on it.
+    On the 1620, an array begins with the previous contents of the storage.  The results of the thesis's programs depend
+    on them, because the programs read the element after the last point.
     """
     names = {entry.name for entry in program.storage.entries}
     free = (str(n) for n in range(9001, 9999) if str(n) not in labels)
@@ -176,8 +177,8 @@ def _switches(on: Collection[int]) -> list[str]:
 
 
 # The disk of the 1620 stops at the end of a cylinder and sets the indicators "cylinder overflow" and "any check".  SIMH
-# does not set the second one, so that the supervisor would lose the rest.  Here the simulator stops, and the script
-# continues behind the instruction that tests the indicator (one address in the supervisor, one in the loader).
+# does not set "any check", so that the supervisor would not read the rest of the data.  These commands therefore let
+# the simulator continue after the instruction that tests "any check": one in the supervisor, one in the loader.
 _OVERFLOW = (
     ":next",
     "if dp cylo==0 goto done",

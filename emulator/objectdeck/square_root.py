@@ -4,16 +4,17 @@ It replaces the number in the accumulator, positions 51 to 60, by its square roo
 of the number is ignored, and a zero becomes +0.  The exponent is halved; if it is odd, the decimal point of the
 mantissa is moved by one digit first.
 
-The digits come from subtraction alone.  A number ``b`` is 5 at first.  It is subtracted from five times the number as
-often as the result stays positive, and grows by ten after each subtraction.  Then ``b`` moves one digit to the right,
+The digits come from subtraction alone.  A number ``b`` is 5 at first.  It is subtracted from five times the mantissa as
+long as the result stays positive, and grows by ten after each subtraction.  Then ``b`` moves one digit to the right,
 with a zero inserted before its last digit, and the same steps give the next digit of the root.  The digits of ``b``
-before the 5 are those of the root.  The routine needs indirect addressing.
+before the 5 are those of the root.  The routine needs the 1620's indirect addressing.
 """
 
 from emulator.objectdeck import digits as d
 
-# The name of a line or "", its operation code, P and Q.  An operand is five digits, or the name of a line with an
-# offset in digits.  "@" before the name makes it an indirect address, and "=" an immediate address.
+# Each line of the routine has a name or "", an operation code and the operands P and Q.  An operand is five digits, or
+# the name of a line or field with an offset in digits.  A name with "@" is an indirect address.  A name with "=" stands
+# for the address itself as an immediate number.
 _LINES = (
     ("", d.BRANCH_ON_DIGIT, "nonzero", "00051"),
     ("", d.CLEAR_FLAG, "00058", d.NONE),
@@ -77,7 +78,7 @@ _INSTRUCTION = 12
 
 
 def square_root(start: int) -> str:
-    """Return the square root routine as digits for core storage from ``start`` on; a program calls it at ``start``."""
+    """Return the digits of the square root routine for core storage from ``start`` on, its entry point."""
     places = {name: start + _INSTRUCTION * index for index, (name, *_) in enumerate(_LINES)}
     at = start + _INSTRUCTION * len(_LINES)
     for name, digits in _FIELDS:

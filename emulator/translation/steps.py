@@ -291,7 +291,6 @@ class _Walk:
         return Field(self.program.storage.entry_of(subscript.array).name, tuple(indices))
 
     def _field(self, address: int) -> Expression:
-        """Return the variable, element, constant or temporary value at a fixed address."""
         if address in self.immediates:
             return Constant(self.immediates[address])
         entry = self.program.storage.entry_of(address)
