@@ -2,19 +2,19 @@
 
 ``import hull1620`` is fast, because each name is loaded on first use.
 
-- ``convex_hull``, ``exact_hull``: the hull of points, by Butler's procedure in any arithmetic or with an exact proof
-- ``Hull``: their result, with numpy arrays, exact volume and area, drawings and files
-- ``digital_hull``, ``voxel_hull``: the filled hull of voxels; the exact hull of voxels, in physical coordinates
-- ``read_volume``: voxels from a file, such as NRRD, NPY, NIfTI or DICOM
-- ``read_points``, ``data_deck``: points from a file of any supported format; points as a data deck
-- ``read_deck``, ``compile_deck``: cards from a file; a compiled FORTRAN program
-- ``load_program``: program 1, 2 or 3 of the thesis, compiled
-- ``EmulatorError``: the base class of the errors that invalid input raises
-- ``Machine``, ``Options``, ``numbers``: a run of a program on the 1620, its options, its arithmetic
-- ``run_hull``, ``read_hull``: the programs of 1963 applied to a data deck; a hull from the cards they punch
-- ``diverge``: the first values and decisions in which two arithmetics differ when they run one program
-- ``Plan``, ``Cell``, ``run_study``: studies of thousands of point sets, compared with the exact hull
-- ``reproduce``: the printed results computed again
+- ``convex_hull`` computes the hull of points by Butler's procedure in any arithmetic, ``exact_hull`` with a proof.
+- ``Hull`` is their result, with numpy arrays, exact volume and area, drawings and files.
+- ``digital_hull`` fills the hull of voxels; ``voxel_hull`` computes their exact hull in physical coordinates.
+- ``read_volume`` reads voxels from a file, such as NRRD, NPY, NIfTI or DICOM.
+- ``read_points`` reads points from a file of any supported format; ``data_deck`` writes points on cards.
+- ``read_deck`` reads cards from a file; ``compile_deck`` compiles a FORTRAN program.
+- ``load_program`` returns program 1, 2 or 3 of the thesis, compiled.
+- ``EmulatorError`` is the base class of the errors that invalid input raises.
+- ``Machine`` runs a program on the 1620 with ``Options``, among them the arithmetic, an object of ``numbers``.
+- ``run_hull`` applies the programs of 1963 to a data deck; ``read_hull`` reads the hull from the punched cards.
+- ``diverge`` finds the first values and decisions of a program that differ in two arithmetics.
+- ``Plan``, ``Cell`` and ``run_study`` compare thousands of computed hulls with the exact hull.
+- ``reproduce`` computes the printed results and compares them with the print.
 """
 
 import os

@@ -32,7 +32,7 @@ Array = TypeVar("Array", bound=NDArray[Any])
 
 
 class Area(float):
-    """An area as a double, because numpy functions and Fractions accept doubles, unlike a Decimal.
+    """An area as a double, which numpy functions and Fractions accept, unlike a Decimal.
 
     Attributes
     ----------
@@ -53,6 +53,8 @@ class Hull:
     """A convex hull, the result of ``convex_hull``, ``exact_hull`` and ``voxel_hull``.
 
     Points are identified by their index in the input, from 0.  Arrays hold the nearest doubles and are read-only.
+    ``simplices``, ``equations``, ``neighbors``, ``volume``, ``area`` and ``squared_areas`` raise ExportError if the
+    procedure found no hull; the last three also if the faces do not close because numbers were rounded.
 
     Attributes
     ----------
@@ -72,7 +74,7 @@ class Hull:
 
     @property
     def status(self) -> str:
-        """``determined`` if there is a hull, otherwise the reason, such as an error message of the 1963 programs."""
+        """The text ``determined``, or the reason why there is no hull, such as an error message of the programs."""
         return self.record.status
 
     @property
@@ -124,7 +126,8 @@ class Hull:
         points = self.record.points
         if isinstance(points, PointTexts):
             return _read_only(points.floats())
-        return _read_only(np.array([[_nearest_to(text) for text in point] for point in points]))
+        rows = [[_nearest(value_of(text)) if "/" in text else float(text) for text in point] for point in points]
+        return _read_only(np.array(rows))
 
     @property
     def exact_points(self) -> tuple[Vector, ...]:
@@ -143,19 +146,14 @@ class Hull:
 
     @cached_property
     def inside(self) -> Indices:
-        """The indices of the points inside the hull: for a polygon within its plane, for a segment between its ends."""
+        """The indices of the points inside the hull; for a flat hull, inside the polygon or between the two ends."""
         return _read_only(np.array(self.record.inside, np.intp))
 
     @cached_property
     def simplices(self) -> Indices:
         """The faces split into triangles, shape (m, 3), counterclockwise seen from outside, as in scipy's ConvexHull.
 
-        A polygon has the triangles of its one face, a segment or a point none.
-
-        Raises
-        ------
-        ExportError
-            The procedure found no hull.
+        A polygon has the triangles of its one face.  A segment or a point has no triangles.
         """
         triangles = np.array(self._mesh.triangles(), np.intp).reshape(-1, 3)
         return _read_only(self.vertices[triangles])
@@ -165,11 +163,6 @@ class Hull:
         """The outward unit normal and the offset of each of ``simplices``, shape (m, 4), as in scipy's ConvexHull.
 
         Inside the hull normal @ x + offset <= 0.  The equations in ``faces`` are exact.
-
-        Raises
-        ------
-        ExportError
-            The procedure found no hull.
         """
         rows: list[Floats] = []
         for (a, b, c, d), polygon in zip(self._mesh.planes(self.record), self._mesh.faces, strict=True):
@@ -188,11 +181,6 @@ class Hull:
 
         Entry k of row i is the index, in ``simplices``, of the triangle that shares with triangle i the edge opposite
         its corner k.  The entry is -1 if there is no such triangle.  This happens only at the boundary of a flat hull.
-
-        Raises
-        ------
-        ExportError
-            The procedure found no hull.
         """
         corners = self.simplices.tolist()
         owner = {(c[k - 2], c[k - 1]): row for row, c in enumerate(corners) for k in range(3)}
@@ -201,13 +189,7 @@ class Hull:
 
     @cached_property
     def volume(self) -> Fraction:
-        """The exact volume; 0 for a flat hull.
-
-        Raises
-        ------
-        ExportError
-            The procedure found no hull, or its faces do not close because numbers were rounded.
-        """
+        """The exact volume; 0 for a flat hull."""
         surface = self._closed
         return six_volumes(surface.numbers(), surface.faces) / 6 if self.dimension == 3 else Fraction(0)
 
@@ -215,14 +197,9 @@ class Hull:
     def area(self) -> Area:
         """The area of the surface; for a polygon the area of one side.
 
-        It is the nearest double, and ``area.digits`` is the same number to 50 significant digits.  The area is a sum of
-        square roots, so unlike ``volume`` it need not be a fraction.  Its digits are exact if the area of every face is
-        a decimal of at most 50 digits, and ``squared_areas`` are always exact.
-
-        Raises
-        ------
-        ExportError
-            The procedure found no hull, or its faces do not close because numbers were rounded.
+        The value is the nearest double, and ``area.digits`` is the area to 50 significant digits.  The area is a sum of
+        square roots, so unlike ``volume`` it need not be a fraction.  The digits are exact if the area of every face is
+        a decimal of at most 50 digits.  ``squared_areas`` are always exact.
         """
         return Area(sum_of_roots(self.squared_areas, AREA_DIGITS))
 
@@ -237,13 +214,13 @@ class Hull:
         Parameters
         ----------
         within : real number or str
-            The distance, also as decimal text or a fraction ``"p/q"``.
+            The distance as a number, decimal text or a fraction ``"p/q"``.
 
         Returns
         -------
         Hull
-            A new hull; this one stays as it is.  A joined face has the equation of its largest face.  ``volume`` and
-            ``area`` are those of the joined faces split into triangles.  A flat hull is returned unchanged.
+            A new hull.  A joined face has the equation of the largest of its faces.  ``volume`` and ``area`` are those
+            of the joined faces split into triangles.  A flat hull is returned unchanged.
 
         Raises
         ------
@@ -278,7 +255,8 @@ class Hull:
         width : int, optional
             The width in pixels.
         labels : {"programs", "input", "none"}, optional
-            Number the vertices as the programs do, by their index in the input, or not at all.
+            ``programs`` numbers the vertices as the programs do, ``input`` by their index in the input, and ``none``
+            not at all.
         hidden : bool, optional
             Draw hidden edges.
         others : bool, optional
@@ -365,10 +343,6 @@ def _direction(eye: Sequence[Any]) -> list[Fraction]:
     if len(direction) != 3:
         raise ExportError(f"expected a direction of view with 3 numbers, found {len(direction)}")
     return direction
-
-
-def _nearest_to(text: str) -> float:
-    return _nearest(value_of(text)) if "/" in text else float(text)
 
 
 def _nearest(value: Fraction) -> float:

@@ -61,8 +61,8 @@ def convex_hull(
         Use (True) or do not use (False) compiled kernels for ``float64`` and ``float32``, which need the extra
         ``fast``.  The default uses them for many points.
     on_refusal : {"raise", "return"}, optional
-        What happens if the procedure finds no hull in this arithmetic, as for most doubles in ``float64``: raise
-        HullRefused, or return the incomplete result.
+        Raise HullRefused, or return the incomplete result, if the procedure finds no hull in this arithmetic.  In
+        ``float64`` it finds no hull for most doubles.
     text : bool, optional
         Follow the text of chapter 3 of the thesis, not the listing, in the two steps in which they differ.
 
@@ -105,7 +105,7 @@ def convex_hull(
 
 
 def exact_hull(points: Points, fast: bool | None = None) -> Hull:
-    """Compute the exact convex hull of points and prove it, by an algorithm that is independent of Butler's.
+    """Compute the exact convex hull of points by an algorithm that is independent of Butler's, and prove the result.
 
     Parameters
     ----------
@@ -166,8 +166,8 @@ def read_points(path: Path) -> Sequence[tuple[str, str, str]]:
     Returns
     -------
     sequence of (x, y, z)
-        Each coordinate is the decimal text of the file, or the exact decimal of a binary float.  The texts of an NPY
-        file are made on access; ``exact_hull`` uses its array directly.
+        Each coordinate is the decimal text of the file, or the exact decimal of a binary float.  The numbers of an NPY
+        file become texts only when they are read; ``exact_hull`` uses the array instead.
 
     Raises
     ------
@@ -186,9 +186,9 @@ def data_deck(points: Points, truncate: bool = False, epsilon: Epsilon = None) -
     points : array_like, shape (n, 3)
         As in ``convex_hull``.
     truncate : bool, optional
-        Truncate numbers after the eighth digit, which is all that a card holds.
+        Truncate numbers after the eighth digit, because a card holds only eight.
     epsilon : number or str, optional
-        The tolerance e, which programs changed as chapter 7 proposes (layer ``epsilon``) read from the deck.
+        The tolerance e of chapter 7.  Only programs with the layer ``epsilon`` read it from the deck.
 
     Raises
     ------
@@ -209,14 +209,14 @@ def data_deck(points: Points, truncate: bool = False, epsilon: Epsilon = None) -
 
 
 def run_hull(deck: Deck, layers: Sequence[str] = (), options: Options | None = None) -> HullRun:
-    """Run the programs of 1963: program 1 on a data deck, then program 2 or 3, as program 1 types on its typewriter.
+    """Run the programs of 1963: program 1 on a data deck, then the program that program 1 names on the typewriter.
 
     Parameters
     ----------
     deck : Deck
         One data set, for instance from ``data_deck`` or ``read_deck``.
     layers : sequence of str, optional
-        Optional sets of changes to the listings, such as ``corrected``, which mends faults of the originals.
+        Optional sets of changes to the listings, such as ``corrected``, which corrects faults of the originals.
     options : Options, optional
         The options of the machine: arithmetic, core memory, limit of statements, and others.
 
@@ -234,7 +234,8 @@ def run_hull(deck: Deck, layers: Sequence[str] = (), options: Options | None = N
     Warns
     -----
     UserWarning
-        ``hull1620 hull`` rejects the deck or warns about it, for example because it has more than 51 points.
+        The command ``hull1620 hull`` would reject this deck or warn about it, for example because it has more than 51
+        points.
     """
     expect(deck, Deck, "deck")
     expect(options, (Options, type(None)), "options")
@@ -278,7 +279,7 @@ def load_program(name: str, layers: Sequence[str] = ()) -> Program:
 
 
 def reproduce(*names: str) -> bool:
-    """Compute the printed results of the thesis and of the later papers again, and print how they compare.
+    """Compute the published results of the thesis and the later papers, and print how they compare.
 
     Parameters
     ----------
@@ -288,7 +289,7 @@ def reproduce(*names: str) -> bool:
     Returns
     -------
     bool
-        True if every result agrees with the printed one.
+        True if every computed result agrees with the published one.
     """
     from modern.cli.main import main  # not at the top, because only this function needs the commands
 

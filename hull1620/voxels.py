@@ -28,7 +28,7 @@ def voxel_hull(
         A volume from ``read_volume``, a SimpleITK image with its spacing, origin and direction, or an array.  Every
         nonzero value of an image or array is a voxel.
     centres : bool, optional
-        Take the hull of the voxels' centres instead of their corners, which are half a voxel away from the centres.
+        Compute the hull of the voxels' centres instead of the hull of their corners.
     spacing : sequence of 3 numbers, optional
         The size of a voxel along each axis.
     origin : sequence of 3 numbers, optional

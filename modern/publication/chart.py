@@ -200,14 +200,30 @@ class _Plan:
 
 def _plan(flow: Flow, inside: range) -> _Plan:
     lanes = _lanes(_rails(flow, inside))
-    landed = [
+    landed = tuple(
         target
         for target in inside
         if not all(place in inside and _joined(flow, inside, lanes, place, k) for place, k in flow.arrivals[target])
-    ]
-    placed, turns, lands, joins = _stack(flow, inside, set(landed), {target for target, _ in lanes})
+    )
+    joined = {target for target, _ in lanes}
+    placed: list[Placed] = []
+    turns, lands, joins = [], [], []
+    y = MARGIN
+    for place in inside:
+        # From top to bottom: the connector that leads to the box, the end of its rails, the box, the turn below it.
+        lands.append(y + _LAND // 2)
+        y += _LAND if place in landed else 0
+        joins.append(y)
+        y += (_JOIN if place in joined else 0) + _ARROW
+        tall, lines = _size(flow.boxes[place])
+        placed.append(Placed(place, y, tall, lines))
+        y += tall
+        turns.append(y + _TURN)
+        ways = enumerate(flow.boxes[place].exits)
+        bends = any(way.side == "down" and not _straight(flow, inside, place, k) for k, way in ways)
+        y += _TURN + RADIUS + 5 if bends else _DOWN
     height = placed[-1].bottom + _TURN + RADIUS + MARGIN
-    return _Plan(height, placed, lanes, tuple(landed), turns, lands, joins)
+    return _Plan(height, tuple(placed), lanes, landed, turns, lands, joins)
 
 
 def _page(flow: Flow, first: int, end: int) -> Page:
@@ -289,29 +305,6 @@ def _lanes(rails: Sequence[_Rail]) -> dict[tuple[int, Where], int]:
                 lanes[rail.target, rail.side] = lane
                 break
     return lanes
-
-
-def _stack(
-    flow: Flow, inside: range, landed: set[int], joined: set[int]
-) -> tuple[tuple[Placed, ...], list[int], list[int], list[int]]:
-    """Stack the boxes of a page and return them with the coordinates that :class:`_Plan` describes."""
-    placed: list[Placed] = []
-    turns, lands, joins = [], [], []
-    y = MARGIN
-    for place in inside:
-        # From top to bottom: the connector that leads to the box, the end of its rails, the box, the turn below it.
-        lands.append(y + _LAND // 2)
-        y += _LAND if place in landed else 0
-        joins.append(y)
-        y += (_JOIN if place in joined else 0) + _ARROW
-        tall, lines = _size(flow.boxes[place])
-        placed.append(Placed(place, y, tall, lines))
-        y += tall
-        turns.append(y + _TURN)
-        ways = enumerate(flow.boxes[place].exits)
-        bends = any(way.side == "down" and not _straight(flow, inside, place, k) for k, way in ways)
-        y += _TURN + RADIUS + 5 if bends else _DOWN
-    return tuple(placed), turns, lands, joins
 
 
 def _start(box: Box, placed: Placed, k: int) -> tuple[int, int]:

@@ -230,7 +230,6 @@ def readme(about: Work, parts: Parts) -> str:
 
 
 def _extent(name: str, files: Mapping[str, bytes]) -> str:
-    """Return the number of files of a part and their size in megabytes."""
     sizes = [len(data) for file, data in files.items() if file.startswith(name)]
     return f"{f'{len(sizes):,} files, ' if name.endswith('/') else ''}{sum(sizes) / 1e6:.1f} MB"
 

@@ -157,7 +157,6 @@ def _first_value(written: str) -> str:
 
 
 def _loop_test(program: Program, test: Instruction) -> str:
-    """Return the test that closes a DO, such as ``I+1 <= N``."""
     names = map(program.storage.name_of, program.loops[test.address][:3])
     variable, step, limit = (name.removeprefix("constant ") for name in names)
     return f"{variable}+{step} <= {limit}"

@@ -6,8 +6,7 @@ from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-_ITEM = re.compile(r"^(\d+)\. \*\*(.+?)\*\*", re.MULTILINE | re.DOTALL)
-_PLAIN = re.compile(r"^(\d+)\. (?=\S)", re.MULTILINE)
+_BOLD_TITLE = re.compile(r"(\d+)\. \*\*(.+?)\*\*", re.DOTALL)
 _DECK = re.compile(r"`grounds/(\w+)`")
 _ROW = re.compile(r"\b(?:P[123]|C[46]|AW|NN|KS)-\d+\b")
 
@@ -39,35 +38,29 @@ def numbered(file: str) -> tuple[str, tuple[Item, ...], tuple[str, str]]:
     first sentence. Raise ValueError if the numbers are not 1, 2, 3 and so on.
     """
     source = (ROOT / file).read_text(encoding="utf-8").partition("\n")[2]
-    items, opening = [], source
-    starts = [match.start() for match in _PLAIN.finditer(source)]
-    if starts:
-        opening = source[: starts[0]]
-    headings = re.findall(r"^## (.+)$", opening, re.MULTILINE)
+    opening, *texts = re.split(r"^(?=\d+\. \S)", source, flags=re.MULTILINE)
+    section, preamble, following, items = "", "", "", []
+    for heading in re.findall(r"^## (.+)$", opening, re.MULTILINE):
+        section = heading
     opening = re.sub(r"^## .+\n?", "", opening, flags=re.MULTILINE)
-    section, closing, preamble = headings[-1] if headings else "", ("", ""), ""
-    for start, end in zip(starts, [*starts[1:], len(source)], strict=True):
+    for text in texts:
         # A heading after an item begins the next section, or, after the last item, the closing section.
-        text, _, following = source[start:end].partition("\n## ")
-        next_heading, _, next_text = following.partition("\n")
-        if end == len(source) and following:
-            closing = (next_heading, next_text.strip())
-        number, title, rest = _split_item(text)
+        text, _, following = text.partition("\n## ")
         decks, rows = tuple(dict.fromkeys(_DECK.findall(text))), tuple(dict.fromkeys(_ROW.findall(text)))
-        items.append(Item(number, title, rest, section, preamble, decks, rows))
-        section, preamble = (next_heading, next_text.strip()) if following else (section, "")
+        items.append(Item(*_split_item(text), section, preamble, decks, rows))
+        next_section, _, next_preamble = following.partition("\n")
+        section, preamble = (next_section, next_preamble.strip()) if following else (section, "")
     if [item.number for item in items] != list(range(1, len(items) + 1)):
         raise ValueError(f"{file}: the items are not numbered 1, 2, 3 and so on")
-    return opening.strip(), tuple(items), closing
+    return opening.strip(), tuple(items), (section, preamble) if following else ("", "")
 
 
 def _split_item(text: str) -> tuple[int, str, str]:
     """Return the number, the title and the rest of an item without the indentation of its lines."""
-    bold = _ITEM.match(text)
     body = re.sub(r"^ {3,4}", "", text, flags=re.MULTILINE)
-    if bold:
+    if bold := _BOLD_TITLE.match(body):
         title = " ".join(bold[2].replace("`", "").split()).rstrip(".")
-        rest = re.sub(r"^\d+\. \*\*.+?\*\*", "", body, count=1, flags=re.DOTALL).strip()
+        rest = body[bold.end() :].strip()
         return int(bold[1]), title, rest.lstrip(".: ") if rest[:1] in ".:" else rest
     number, _, content = body.partition(". ")
     first = re.split(r"(?<=[a-z)])[.:;]\s|\n", content, maxsplit=1)[0]

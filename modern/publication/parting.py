@@ -70,7 +70,6 @@ def parted(text: str) -> dict[str, Any]:
 
 
 def _described(dimension: int, faces: Sequence[Sequence[int]]) -> str:
-    """Return the kind of a hull with the numbers of its vertices and faces."""
     count = len({n for face in faces for n in face})
     kinds = ("a point", "a line segment with two ends", f"a polygon with {count} vertices")
     return kinds[dimension] if dimension < 3 else f"a polyhedron with {count} vertices and {len(faces)} faces"

@@ -151,7 +151,6 @@ def bibliography(literature: str, persons: Mapping[str, str]) -> Iterator[str]:
 
 
 def _cited(document: Document) -> str:
-    """Return the entry of a document in the bibliography."""
     volume = f", {document.volume}" if document.volume not in ("", "unknown") else ""
     pages = f", pp. {document.extent}" if document.extent != "unknown" else ", volume and pages unknown"
     doi = f" doi:{document.doi}." if document.doi.startswith("10.") else ""

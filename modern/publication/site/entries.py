@@ -56,22 +56,6 @@ def entry(row: Row, places: Iterable[str], page: str) -> str:
     return element("article", head + fields, cls=f"row of-{row.layer}", id=row.id, aria_label=f"row {row.id}")
 
 
-def column(name: str, inner: str) -> str:
-    """Return a cell of a comparison. Screen readers read its name, which in lower case is also its CSS class."""
-    return element("div", text("span", f"{name} ", cls="sr") + inner, cls=name.lower())
-
-
-def sign(character: str, meaning: str) -> str:
-    """Return a sign with its meaning as a tooltip and for screen readers."""
-    return text("span", character, cls="sign", title=meaning, role="img", aria_label=meaning)
-
-
-def witness_line(page: str, line: int | str, source: int, inner: str) -> str:
-    """Return a line of the witness with its number. ``source`` is the number of the line in the document's OCR text."""
-    where = f"p. {page}, line {line} of the witness, {source} of the thesis's OCR text"
-    return element("span", text("span", str(line), cls="line", title=where) + inner, cls="piece")
-
-
 def _reading(reading: str) -> str:
     return " / ".join(text("code", line) for line in reading.split(" | "))
 

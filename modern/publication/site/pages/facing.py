@@ -13,7 +13,7 @@ from modern.publication.facing import Card, Facing, Piece, Variant, facing
 from modern.publication.flow import flow
 from modern.publication.measured import DETECTED_BY, runs, weights
 from modern.publication.moments import LEGEND, drawn, moments
-from modern.publication.site.entries import column, entry, sign, witness_line
+from modern.publication.site.entries import entry
 from modern.publication.site.made import Part, one_of
 from modern.publication.site.markup import (
     bar,
@@ -118,10 +118,13 @@ def _card(listing: Facing, card: Card, first_cards: dict[str, Card]) -> str:
     html = "".join(element("span", "", id=place, cls="also-at") for place in card.also)
     title = f"card {card.number}: its permanent address"
     html += text("a", card.place, href=f"#{card.place}", cls="place", title=title)
-    html += column("Witness", "".join(map(_piece, card.witness)) or text("span", SIGNS["ours"][1], cls="none"))
-    deck = sign(*SIGNS[difference]) if difference else ""
+    html += _column("Witness", "".join(map(_piece, card.witness)) or text("span", SIGNS["ours"][1], cls="none"))
+    deck = ""
+    if difference:
+        sign, meaning = SIGNS[difference]
+        deck = text("span", sign, cls="sign", title=meaning, role="img", aria_label=meaning)
     deck += code(card.text, card.changed if card.witness else (), "ins")
-    html += column("Deck", deck + text("span", str(card.number), cls="number", title="card of the deck"))
+    html += _column("Deck", deck + text("span", str(card.number), cls="number", title="card of the deck"))
     html += _details(listing, card, first_cards)
     html += "".join(_variant(listing, variant) for variant in card.variants)
     # The class many or noted makes room for the ids of the rows in the margin.
@@ -131,7 +134,14 @@ def _card(listing: Facing, card: Card, first_cards: dict[str, Card]) -> str:
 
 
 def _piece(piece: Piece) -> str:
-    return witness_line(piece.page, piece.line, piece.source, code(piece.text, piece.changed, "del"))
+    where = f"p. {piece.page}, line {piece.line} of the witness, {piece.source} of the thesis's OCR text"
+    number = text("span", str(piece.line), cls="line", title=where)
+    return element("span", number + code(piece.text, piece.changed, "del"), cls="piece")
+
+
+def _column(name: str, inner: str) -> str:
+    """Return a cell of a comparison. Screen readers read its name, which in lower case is also its CSS class."""
+    return element("div", text("span", f"{name} ", cls="sr") + inner, cls=name.lower())
 
 
 def _variant(listing: Facing, variant: Variant) -> str:
@@ -142,7 +152,6 @@ def _variant(listing: Facing, variant: Variant) -> str:
 
 
 def _details(listing: Facing, card: Card, first_cards: dict[str, Card]) -> str:
-    """Return the details of a card for the page of a listing: its emendations, jumps, names and weight of evidence."""
     inner, there = "", []
     for name in card.applicable_rows:
         if first_cards[name] is card:
@@ -161,7 +170,6 @@ def _details(listing: Facing, card: Card, first_cards: dict[str, Card]) -> str:
 
 
 def _margin(listing: Facing, card: Card) -> str:
-    """Return the executions and the time in every example; CSS shows the chosen example."""
     if card.kind != "statement" or card.text.lstrip().startswith("DIMENSION"):
         return text("span", card.kind if card.kind != "statement" else "storage", cls="quiet")
     cells = []

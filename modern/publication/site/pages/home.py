@@ -64,7 +64,6 @@ def _verdicts() -> str:
 
 
 def _key() -> str:
-    """Return the legend of the table of verdicts."""
     items = []
     for at, (name, meaning) in enumerate(zip(COLUMNS, _MEANINGS, strict=True)):
         sample = element("span", bar([(f"v-{at}", 1)]) + escape(SIGNS[name]), cls="sample", aria_hidden="true")
@@ -83,7 +82,6 @@ def _examples() -> str:
 
 
 def _agreement(example: int, state: State) -> str:
-    """Return the verdict on an example's cards for one of the two states of program 1."""
     reports = [report for report in reproduce((example,), states=(state,)) if not report.stated]
     kinds = Counter(report.verdict.kind for report in reports)
     return ", ".join(f"{count} {kind}" for kind, count in sorted(kinds.items()))

@@ -30,7 +30,6 @@ def make(argument: str) -> list[Part]:
 
 
 def _controls(document: str) -> str:
-    """Return the form with which a reader chooses the statements to show, with the number of each kind."""
     numbers = counts(document)
     boxes = ""
     for name in COLUMNS:

@@ -37,7 +37,6 @@ def _card() -> str:
 
 
 def _growth() -> str:
-    """Return the stages of the example's hull in the order of the program, one picture for each."""
     stages = essay.growth(EYE, width=480)
     items = "".join(element("li", inline(strip([stage]), f"stage{stage.stage.number}")) for stage in stages)
     caption = f"The hull of {_example()}, in the order of program 3."
@@ -45,7 +44,6 @@ def _growth() -> str:
 
 
 def _truncation() -> str:
-    """Return a slider for a coordinate of a point, and the values of a plane in eight digits that depend on it."""
     rows = [(x, *essay.plane_row(x)) for x in XS]
     shown = [[text("span", str(cell)) for cell in row] for row in rows if row[0] in essay.XS]
     summary = element(

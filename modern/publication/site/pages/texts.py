@@ -37,7 +37,6 @@ def make(argument: str) -> list[Part]:
 
 
 def _errors() -> list[Part]:
-    """Return a section for each error number of the compiler and error code of the machine, with an example."""
     parts = []
     for number, explanation in explanations().items():
         lines = "\n".join(explanation.example)
