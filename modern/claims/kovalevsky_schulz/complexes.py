@@ -12,10 +12,10 @@ import numpy as np
 
 from modern.claims.evidence import Check, claim, exhausted, exhibited, search
 from modern.claims.hulls import exact_hull
-from modern.claims.kovalevsky_schulz.voxels import SOLIDS, Voxels
+from modern.claims.kovalevsky_schulz.voxels import KINDS, SOLIDS, Voxels
 from modern.claims.sampled_sets import Point
 from modern.digital.solids import listed
-from modern.papers.kovalevsky_schulz import CENTRES, VERTICES
+from modern.papers.kovalevsky_schulz import VERTICES
 from modern.papers.kovalevsky_schulz.corners import Of, places
 
 Cell = tuple[int, ...]
@@ -76,10 +76,7 @@ def interior_and_closure(cases: int = 3) -> Check:
 
     def agrees(solid: Voxels) -> bool:
         cells = _complex(solid)
-        parts: tuple[tuple[Of, list[Cell], int], ...] = (
-            (CENTRES, sorted(interior(cells)), 3),
-            (VERTICES, sorted(cells), 0),
-        )
+        parts = zip(KINDS, (sorted(interior(cells)), sorted(cells)), (3, 0), strict=True)
         return all(
             {dimension(part[k]) for k in exact_hull(part).vertices} == {kind}
             and _halved(part, kind) == _placed(solid, of)

@@ -71,9 +71,7 @@ def any_order(cases: int = CASES) -> Check:
         for order in (points, points[::-1], sorted(points)):
             outcomes.append(exact_hull([order[k] for k in independent(order)]).dimension == 3)
             outcomes.append({*merged(polyhedron(order)).planes()} == {f.plane for f in judge.facets})
-    return searched(
-        SETS[3], cases, outcomes, f"{len(outcomes) // 2} orders begin with a tetrahedron and end with the hull"
-    )
+    return searched(SETS[3], cases, outcomes, f"{len(outcomes) // 2} orders begin with a tetrahedron and give the hull")
 
 
 @claim("kovalevsky-schulz.127", "kovalevsky-schulz.169", "kovalevsky-schulz.77", full=400)
@@ -222,9 +220,7 @@ def point_in_two_planes() -> Check:
     faces = exact_hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]).facets
     coplanar = [{*f.polygon} for f in faces if plane_value(f.plane, (2, 0, 0)) == 0]
     passed = len(coplanar) == 2 and coplanar[0] & coplanar[1] == {0, 1}
-    return exhibited(
-        passed, f"{len(coplanar)} faces of a tetrahedron are coplanar with a point in line with their edge"
-    )
+    return exhibited(passed, f"{len(coplanar)} faces of a tetrahedron are coplanar with a point in line with an edge")
 
 
 @claim("kovalevsky-schulz.55")

@@ -57,11 +57,11 @@ def hull_of_few_voxels(cases: int = 3) -> Check:
 
 @claim("kovalevsky-schulz.23")
 def local_corner_inside_hull() -> Check:
-    """Check the counterexample: a local corner that lies inside the triangle of three neighbours is no vertex."""
+    """Check the counterexample: a voxel that passes the test of 13 pairs is inside the triangle of three neighbours."""
     *around, middle = points = tuple(counterexample_points("tripod.csv"))
     near = all(max(abs(a - b) for a, b in zip(p, middle, strict=True)) == 1 for p in around)
     wrong = middle in local(points) and near and len(around) not in exact_hull(points).vertices
-    return refuted(wrong, f"{middle} is a local corner and a convex combination of its {len(around)} neighbours")
+    return refuted(wrong, f"{middle} passes the test of 13 pairs and is a combination of its {len(around)} neighbours")
 
 
 @claim("kovalevsky-schulz.18", full=4_000)
@@ -106,9 +106,7 @@ def voxels_of_ball() -> Check:
     printed, numbers = numbers_of_ball()[0], [ball(32, centre).count for centre in (VOXEL, VERTEX)]
     inner = sum(dot(voxel, voxel) < 16**2 for voxel in ball(32).coordinates().tolist())
     check = exhibited(numbers[0] == printed, f"the ball centred on a voxel has {numbers[0]} voxels")
-    case = (
-        f"a ball centred on a corner of voxels, which has {numbers[1]}, and one without its sphere, which has {inner}"
-    )
+    case = f"a ball centred on a corner of voxels, which has {numbers[1]}, and one without its sphere, with {inner}"
     return check.unless(printed not in (numbers[1], inner), case)
 
 
@@ -132,9 +130,8 @@ def printed_triangles() -> Check:
     point remains inside the face: the one that was inserted last.
     """
     printed, corners = numbers_of_ball()[3], local_corners(ball(32), VERTICES, 6).tolist()
-    on_faces = [
-        [k for k, p in enumerate(corners) if plane_value(facet.plane, p) == 0] for facet in exact_hull(corners).facets
-    ]
+    faces = exact_hull(corners).facets
+    on_faces = [[k for k, p in enumerate(corners) if plane_value(f.plane, p) == 0] for f in faces]
     faces_at = Counter(k for on_face in on_faces for k in on_face)
     replaced = sum(max(0, sum(faces_at[k] == 1 for k in on_face) - 1) for on_face in on_faces)
     most = 2 * (len(faces_at) - replaced) - 4
