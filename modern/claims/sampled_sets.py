@@ -39,17 +39,19 @@ def _has_dimension(points: tuple[Point, ...], dimension: int) -> bool:
 # of another dimension, for example coplanar points in space, are skipped.
 SETS = {
     dimension: Generator(
-        f"sets of 7 to 11 points in {place}, coordinates from -5 to 5",
+        f"sets of 7 to 11 points in {place} from -5 to 5",
         seed,
         partial(_draw_set, dimension=dimension),
         partial(_has_dimension, dimension=dimension),
     )
-    for dimension, seed, place in ((2, 1965, "a plane"), (3, 313, "space"))
+    for dimension, seed, place in ((2, 1965, "the plane z = x - 2y + 3, x and y"), (3, 313, "space, coordinates"))
 }
 
 
 # This generator draws the same number of sets in a plane and in space, with a separate seed for each kind.
-BOTH = Generator("as many sets of 7 to 11 points in a plane (seed 1965) as in space", SETS[3].seed, SETS[3].draw)
+BOTH = Generator(
+    "as many sets of 7 to 11 points in the plane z = x - 2y + 3 (seed 1965) as in space", SETS[3].seed, SETS[3].draw
+)
 
 
 def counterexample(name: str) -> str:

@@ -30,9 +30,11 @@ def inside_triangle() -> Proof:
     area, weights = bracket(a, b, c), (bracket(b, c, p), bracket(c, a, p), bracket(a, b, p))
     combined = [dot(weights, [corner[k] for corner in (a, b, c)]) for k in (0, 1)]
     return Proof(
-        "the senses of its sides tell whether a point is in a triangle",
+        "a point inside a triangle is a combination of the corners with positive weights, whose signs are the senses "
+        "of the sides",
         "The senses about the sides, divided by that of the corners, are the weights of the point as a combination of "
-        "the corners. They are unique because the corners are not collinear.",
+        "the corners. They are unique because the corners are not collinear. A point is inside exactly if all weights "
+        "are positive.",
         (
             *(Step("the point is the combination", {}, zero(area * p[k] - combined[k])) for k in (0, 1)),
             Step("the weights have the sum 1", {}, zero(area - total(weights))),

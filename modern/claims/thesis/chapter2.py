@@ -8,7 +8,7 @@ from fractions import Fraction
 from itertools import combinations, permutations
 
 from modern.claims.appel_will.convexity import area
-from modern.claims.evidence import Check, claim, exhausted, searched, slip
+from modern.claims.evidence import Check, claim, searched, slip
 from modern.claims.hulls import exact_hull
 from modern.claims.sampled_sets import (
     CASES,
@@ -27,15 +27,16 @@ from modern.geometry.vectors import cross, dot, minus
 
 @claim("thesis.18")
 def weights_of_combination() -> Check:
-    """Check that a combination of a triangle's corners lies in the triangle if and only if no weight is negative."""
+    """Check that of the combinations of a triangle's corners, those without a negative weight lie in the triangle."""
     sides = [facet.plane for facet in exact_hull([(0, 0, 0), (4, 0, 0), (0, 4, 0)]).facets]
     weights = [(4 - x - y, x, y) for x in range(-3, 8) for y in range(-3, 8)]
     outcomes = [(min(w) >= 0) == all(plane_value(side, (w[1], w[2], 0)) <= 0 for side in sides) for w in weights]
-    message = "a combination is in the triangle exactly if no weight is negative"
-    domain = "combinations of three points: two weights are quarters from -3/4 to 7/4, and the sum of all is 1"
-    check = exhausted(domain, outcomes, message)
-    beyond = any(plane_value(side, (-1, 0, 0)) > 0 for side in sides)
-    return check.misprinted(beyond, "weights that are not negative and have the sum 1")
+    inner = sum(min(w) >= 0 for w in weights)
+    message = (
+        f"{len(weights)} combinations of the corners of a triangle have weights with the sum 1; only the {inner} "
+        "combinations without a negative weight are in the triangle"
+    )
+    return slip(inner == len(weights), all(outcomes), "weights that are not negative and have the sum 1", message)
 
 
 @claim("thesis.22")
@@ -80,7 +81,11 @@ def vertex_of_hull(dimension: int, cases: int = 1) -> Check:
     inner = tuple(int(axis < dimension) for axis in range(3))
     between = [1 for p, q in combinations(corners, 2) if not any(cross(minus(q, p), minus(inner, p)))]  # type: ignore[arg-type]
     alone = not between and len(corners) not in exact_hull([*corners, inner]).vertices
-    check = searched(SETS[dimension], cases, checks, f"true for {len(checks)} points")
+    message = (
+        f"{sum(checks)} of {len(checks)} points agree: a vertex is between no two points of the hull, and each other "
+        "point is between two"
+    )
+    check = searched(SETS[dimension], cases, checks, message)
     body = "triangle" if dimension == 2 else "tetrahedron"
     return check.unless(alone, f"{inner} inside a {body}, which lies between no two given points")
 
@@ -160,7 +165,7 @@ def planes_from_triples(cases: int = CASES) -> Check:
             if any(plane[:3]) and (max(values) <= 0 or min(values) >= 0):
                 planes.add(reduced_plane(plane if max(values) <= 0 else tuple(-x for x in plane)))  # type: ignore[arg-type]
         agreeing += planes == {facet.plane for facet in sampled.judge.facets}
-    message = f"the supporting planes of {agreeing} of {len(sets)} sets are the facets"
+    message = f"in {agreeing} of {len(sets)} sets, the test of all planes finds exactly the facets of the exact hull"
     return searched(SETS[3], cases, [agreeing == len(sets)], message)
 
 
@@ -177,5 +182,5 @@ def lines_from_pairs(cases: int = CASES) -> Check:
             if max(sides) <= 0 or min(sides) >= 0:
                 lines.add(frozenset(k for k, side in enumerate(sides) if not side))
         agreeing += lines == {_on(sampled.points, facet.plane) for facet in sampled.judge.facets}
-    message = f"the supporting lines of {agreeing} of {len(sets)} sets are the edges"
+    message = f"in {agreeing} of {len(sets)} sets, the test of all lines finds exactly the edges of the exact hull"
     return searched(SETS[2], cases, [agreeing == len(sets)], message)

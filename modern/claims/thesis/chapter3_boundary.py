@@ -148,9 +148,11 @@ def hull_of_projection(cases: int = CASES) -> Check:
     for sampled in sampled_sets(2, cases):
         plane = sampled.judge.plane
         assert plane is not None
-        for axis in (k for k in range(3) if plane[k]):
-            image = [_with_0(point, axis) for point in sampled.points]
-            checks.append(_parts(image, exact_hull(image)) == _parts(sampled.points, sampled.judge))
+        # The same set is also moved to a plane that is parallel to the y axis.
+        for points, normal in ((sampled.points, plane), ([(x, y, 2 * x) for x, y, _ in sampled.points], (2, 0, -1))):
+            for axis in (k for k in range(3) if normal[k]):
+                image = [_with_0(point, axis) for point in points]
+                checks.append(_parts(image, exact_hull(image)) == _parts(points, exact_hull(points)))
     message = "projections keep the vertices, the boundary and inside points, and the points of each line"
     return searched(SETS[2], cases, checks, f"{sum(checks)} of {len(checks)} {message}")
 
@@ -166,4 +168,5 @@ def sum_that_ends_with_plus() -> Check:
     (row,) = (row for row in statements_of("thesis") if row.id == "thesis.273")
     *_, last = row.words.partition(r"\neq")[0].split("+")
     right = coordinate_planes().check().holds
-    return slip(last.strip(), right, "a sum without the plus, or with D_0 D_C", "D_C is 0 for a coordinate plane")
+    message = "nothing follows the last plus; the product D_0 D_C would be 0, because D_C is 0 for a coordinate plane"
+    return slip(last.strip(), right, "a sum without the plus, or with D_0 D_C", message)

@@ -22,6 +22,7 @@ from modern.claims.sampled_sets import (
 )
 from modern.exact_hull import ExactHull
 from modern.geometry.hull import Hull
+from modern.geometry.vectors import cross
 
 Line = tuple[int, int, int]
 
@@ -55,7 +56,7 @@ def other_orders(cases: int = CASES) -> Check:
             for hull in [exact_hull(points)]
         )
         same += [parts == first for parts in others]
-    return searched(BOTH, 2 * cases, same, f"{sum(same)} of {len(same)} other orders give the same vertices and planes")
+    return searched(BOTH, 2 * cases, same, f"{sum(same)} of {len(same)} other orders of the points give the same hull")
 
 
 def _draw_line(random: Random) -> tuple[Point, ...]:
@@ -74,13 +75,16 @@ def collinear_points(cases: int = 8) -> Check:
 
     def ends_and_equations(points: tuple[Point, ...]) -> bool:
         hull = convex_hull(points)
-        equations = [tuple(map(int, line)) for line in hull.lines]
-        on = all(not plane_value((a, b, c, d), p) for a, b, c, d in equations for p in points)
+        equations: list[Plane] = [tuple(map(int, line)) for line in hull.lines]  # type: ignore[misc]
+        on = all(not plane_value(equation, p) for equation in equations for p in points)
         found_by_judge = {points[k] for k in exact_hull(points).vertices}
         ends = {points[k] for k in hull.vertices}
-        return on and len(equations) == 2 and ends == found_by_judge == {min(points), max(points)}
+        # Two planes that are not the same intersect in the line.
+        two_planes = len(equations) == 2 and any(cross(equations[0][:3], equations[1][:3]))
+        return on and two_planes and ends == found_by_judge == {min(points), max(points)}
 
-    return search(LINES, ends_and_equations, cases, "the points of all lines have the right ends and equations")
+    message = "for each set the procedure finds the two ends and two planes that intersect in the line"
+    return search(LINES, ends_and_equations, cases, message)
 
 
 def _draw_few(random: Random) -> tuple[Point, ...]:
@@ -139,7 +143,8 @@ def equation_of_line(page: int) -> Check:
         a, b, c = (line_as_printed if page == 12 else line_of_page_19)(u1, v1, u1 + u, v1 + v)
         return a * (u1 + along * u + right * v) + b * (v1 + along * v - right * u) + c - right * (u * u + v * v)
 
-    return identity(difference, (2, 2, 2, 2, 1, 1), "the value is proportional to the distance from the line")
+    message = "in the two coordinates of the equation, its left side is 0 exactly on the line through the two points"
+    return identity(difference, (2, 2, 2, 2, 1, 1), message)
 
 
 @claim("thesis.51")

@@ -1,6 +1,6 @@
 """Checks of the stages H_1, H_2, ... through which the construction of a hull goes by adding points.
 
-A property is a function that examines the stages of one set and yields True or False for each case. NV and NE are the
+A property is a function that examines the stages of one set and yields True or False for each test. NV and NE are the
 numbers of vertices and equations of a stage, and NETC is the number of the first equation that a point is outside of.
 """
 
@@ -30,7 +30,7 @@ from modern.geometry.vectors import cross, dot, minus
 @claim("thesis.2", "thesis.29", kind="nested", full=300)
 @claim("thesis.204", "thesis.69", "thesis.79", "thesis.101", kind="last_hull", full=300)
 @claim("thesis.30", "thesis.60", kind="contained_points", full=300)
-@claim("thesis.31", "thesis.78", "thesis.100", kind="finite", full=300)
+@claim("thesis.204", "thesis.31", "thesis.78", "thesis.100", kind="finite", full=300)
 @claim("thesis.216", "thesis.72", "thesis.220", "thesis.225", kind="counts", full=300)
 @claim("thesis.75", kind="decreasing", full=300)
 @claim("thesis.68", "thesis.76", "thesis.79", "thesis.101", "thesis.255", "thesis.265", kind="accepted", full=300)
@@ -50,8 +50,9 @@ def stage_property(kind: str, cases: int = CASES) -> Check:
     """Check one property, a key of ``_PROPERTIES``, of all stages H_1, H_2, ... in the construction of sampled sets."""
     dimension = 2 if kind in _FLAT else 3 if kind in _SPACE else 0
     sets = sampled_sets(dimension, cases) if dimension else flat_and_spatial_sets(cases)
-    checks = [right for sampled in sets for right in _PROPERTIES[kind](sampled)]
-    message = f"true in {sum(checks)} of {len(checks)} cases in the construction of {len(sets)} sets"
+    examine, says = _PROPERTIES[kind]
+    checks = [right for sampled in sets for right in examine(sampled)]
+    message = f"{sum(checks)} of {len(checks)} tests in the construction of {len(sets)} sets show: {says}"
     return searched(SETS.get(dimension, BOTH), len(sets), checks, message)
 
 
@@ -119,7 +120,6 @@ def _steps(sampled: SampledSet) -> Iterator[tuple[Approximation, Approximation, 
 
 
 def _nested(sampled: SampledSet) -> Iterator[bool]:
-    """Yield, for each step, whether H_j+1 contains H_j, and whether the added point is not in H_j."""
     for before, after, _, added in _steps(sampled):
         yield all(plane_value(plane, sampled.points[k]) <= 0 for plane in after.equations for k in before.vertices)
         yield any(plane_value(plane, sampled.points[added]) > 0 for plane in before.equations)
@@ -132,7 +132,6 @@ def _equations(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _last_hull(sampled: SampledSet) -> Iterator[bool]:
-    """Yield, for each hull H_j, whether all its equations support the set only if it is the hull of the whole set."""
     hull_planes = {facet.plane for facet in sampled.judge.facets}
     stages = sampled.stages()
     for stage in stages:
@@ -141,7 +140,6 @@ def _last_hull(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _struck_inside(sampled: SampledSet) -> Iterator[bool]:
-    """Yield, for each stage, whether it eliminates exactly those remaining points that are inside it."""
     eliminated_points: set[int] = set()
     for stage, record in zip(sampled.stages(), sampled.hull.history, strict=True):
         remaining = set(range(len(sampled.points))) - eliminated_points - {*stage.vertices}
@@ -151,7 +149,6 @@ def _struck_inside(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _contained_points(sampled: SampledSet) -> Iterator[bool]:
-    """Yield, for each point in the hull H_j except its vertices, whether it is not a vertex of the last hull either."""
     for stage in sampled.stages():
         judge = exact_hull([sampled.points[k] for k in stage.vertices])
         corners = {stage.vertices[k] for k in judge.vertices}
@@ -161,7 +158,6 @@ def _contained_points(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _decreasing(sampled: SampledSet) -> Iterator[bool]:
-    """Yield whether N_j, the number of points not inside H_j, never grows, and is N less the eliminated points."""
     before, eliminated = len(sampled.points), 0
     for stage, record in zip(sampled.stages(), sampled.hull.history, strict=True):
         remaining = sum(max(plane_value(e, point) for e in stage.equations) >= 0 for point in sampled.points)
@@ -175,7 +171,6 @@ def _finite(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _accepted_planes(sampled: SampledSet) -> Iterator[bool]:
-    """Yield, for each step, whether the equation under test is the first that is positive at some point."""
     for before, _, record, _ in _steps(sampled):
         for plane in before.equations[: record.checked - 1]:
             yield all(plane_value(plane, point) <= 0 for point in sampled.points)
@@ -192,7 +187,6 @@ def _farthest_outside(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _largest_of_all(sampled: SampledSet) -> Iterator[bool]:
-    """Yield, for each step, whether no point, eliminated or not, has a larger value than the added point."""
     for before, _, record, added in _steps(sampled):
         plane = before.equations[record.checked - 1]
         yield plane_value(plane, sampled.points[added]) == max(plane_value(plane, point) for point in sampled.points)
@@ -214,7 +208,6 @@ def _replaced_facet(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _two_new_lines(sampled: SampledSet) -> Iterator[bool]:
-    """Yield, for each step, whether it adds two lines, and whether no point is outside both of them."""
     for _, after, _, added in _steps(sampled):
         lines = [plane for plane, ends in zip(after.equations, after.defining, strict=True) if added in ends]
         yield len(lines) == 2
@@ -222,7 +215,6 @@ def _two_new_lines(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _counts(sampled: SampledSet) -> Iterator[bool]:
-    """Yield whether NV and NE are 3 (in space 4) for H_1, and grow by one at each stage (NE only in a plane)."""
     first = sampled.judge.dimension + 1
     for number, stage in enumerate(sampled.stages()):
         yield len(stage.vertices) == first + number
@@ -231,7 +223,6 @@ def _counts(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _renumbering(sampled: SampledSet) -> Iterator[bool]:
-    """Yield, for each step, whether later equations move up by one number and the two new equations come last."""
     for before, after, record, _ in _steps(sampled):
         kept_lines = [d for k, d in enumerate(before.defining) if k != record.checked - 1]
         yield [{*d} for d in after.defining[:-2]] == [{*d} for d in kept_lines]
@@ -242,14 +233,12 @@ def _vertices_used(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _vertex_when_added(sampled: SampledSet) -> Iterator[bool]:
-    """Yield, for each added point, whether it is a vertex of the hull of the points used so far."""
     for stage, record in zip(sampled.stages(), sampled.hull.history, strict=True):
         judge = exact_hull([sampled.points[k] for k in stage.vertices])
         yield {stage.vertices.index(k) for k in record.added} <= {*judge.vertices}
 
 
 def _added_triangle(sampled: SampledSet) -> Iterator[bool]:
-    """Yield, for each lattice point, whether the hull H_k+1 consists of H_k and the added triangle."""
     plane = sampled.judge.plane
     assert plane is not None
     lattice = [
@@ -265,7 +254,6 @@ def _added_triangle(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _added_tetrahedra(sampled: SampledSet) -> Iterator[bool]:
-    """Yield, for each lattice point, whether the hull H_k+1 consists of H_k and the added tetrahedra."""
     lattice: list[Point] = [(x, y, z) for x, y, z in product(range(-5, 6, 2), repeat=3)]
     for before, after, record, added in _steps(sampled):
         apex = sampled.points[added]
@@ -295,7 +283,6 @@ def _in_triangle(point: Point, a: Point, b: Point, c: Point) -> bool:
 
 
 def _convexity(sampled: SampledSet) -> Iterator[bool]:
-    """Yield whether replacing only one plane keeps the body convex if and only if no other plane is visible."""
     inner = [sampled.points[k] for k in sampled.hull.history[0].added]
     for before, after, record, added in _steps(sampled):
         # Page 30: replace only equation NETC, by the planes through its sides and the new point.
@@ -313,27 +300,34 @@ def _oriented(plane: Plane, inner: list[Point]) -> Plane:
     return plane if total < 0 else (-plane[0], -plane[1], -plane[2], -plane[3])
 
 
+# The function that examines the stages of a set for each property, and the property as a sentence.
 _PROPERTIES = {
-    "nested": _nested,
-    "equations": _equations,
-    "last_hull": _last_hull,
-    "struck_inside": _struck_inside,
-    "contained_points": _contained_points,
-    "decreasing": _decreasing,
-    "finite": _finite,
-    "accepted": _accepted_planes,
-    "farthest_outside": _farthest_outside,
-    "largest_of_all": _largest_of_all,
-    "replaced_line": _replaced_facet,
-    "replaced_plane": _replaced_facet,
-    "two_new_lines": _two_new_lines,
-    "counts": _counts,
-    "renumbering": _renumbering,
-    "vertices_used": _vertices_used,
-    "vertex_when_added": _vertex_when_added,
-    "added_triangle": _added_triangle,
-    "added_tetrahedra": _added_tetrahedra,
-    "convexity": _convexity,
+    "nested": (_nested, "each hull contains the hull before it and a point outside that hull"),
+    "equations": (_equations, "the equations of each H_j are the facets of the exact hull of its points"),
+    "last_hull": (_last_hull, "all equations of H_j support the set exactly if H_j is the last hull, that of the set"),
+    "struck_inside": (_struck_inside, "each H_j eliminates exactly the remaining points that are inside it"),
+    "contained_points": (_contained_points, "a point in H_j that is no vertex of H_j is no vertex of the last hull"),
+    "decreasing": (_decreasing, "N_j counts the points not inside H_j and never grows"),
+    "finite": (_finite, "at most N - 3 hulls follow H_1 in a plane, and at most N - 4 in space"),
+    "accepted": (_accepted_planes, "no equation before number NETC is positive at any point, but equation NETC is"),
+    "farthest_outside": (_farthest_outside, "the new point has the largest value of equation NETC, which is positive"),
+    "largest_of_all": (_largest_of_all, "no point, eliminated or not, has a larger value than the new point"),
+    "replaced_line": (_replaced_facet, "two lines from the new point to the ends of one line replace this line"),
+    "replaced_plane": (
+        _replaced_facet,
+        "if a new point is outside one facet only, a new facet on each side replaces it",
+    ),
+    "two_new_lines": (_two_new_lines, "each step adds two lines, and no point is outside both"),
+    "counts": (_counts, "NV and NE of H_1 are 3, or 4 in space; each step adds 1 to NV, and in a plane to NE"),
+    "renumbering": (_renumbering, "later lines move up by one number, and the two new lines are last"),
+    "vertices_used": (_vertices_used, "all vertices of the last hull are points that the procedure has added"),
+    "vertex_when_added": (_vertex_when_added, "each added point is a vertex of the hull of the points added so far"),
+    "added_triangle": (_added_triangle, "a lattice point is in H_k+1 exactly if it is in H_k or the added triangle"),
+    "convexity": (_convexity, "if one plane is replaced, the body is convex exactly if no other plane is visible"),
+    "added_tetrahedra": (
+        _added_tetrahedra,
+        "a lattice point is in H_k+1 exactly if it is in H_k or an added tetrahedron",
+    ),
 }
 _FLAT = ("replaced_line", "renumbering", "two_new_lines", "added_triangle")
 _SPACE = ("convexity", "added_tetrahedra")

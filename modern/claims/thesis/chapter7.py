@@ -74,7 +74,7 @@ def _positions(name: str) -> int:
 def program_sizes() -> Check:
     """Check that each program with its data fits 40,000 positions but not 20,000; the code size is estimated."""
     sizes = [_positions(name) for name in THREE]
-    message = f"the three programs take about {', '.join(map(str, sizes))} positions"
+    message = f"programs 1 to 3 need about {', '.join(map(str, sizes))} positions, by an estimate"
     return exhibited(SMALLER_CORE < max(sizes) <= CORE, message)
 
 
