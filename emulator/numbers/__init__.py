@@ -5,7 +5,7 @@
 To add a decimal arithmetic, for example one that keeps ten digits and rounds:
 
 1. If :data:`~emulator.numbers.arithmetic.Rules` can express it, add a :class:`~emulator.numbers.arithmetic.Profile`
-   to ``PROFILES`` in ``arithmetic.py``, with its source, as ``ibm1962`` does: ``Profile("mine", "manual and page",
+   to ``PROFILES`` in ``arithmetic.py``, with its source in a comment, as ``ibm1962`` does: ``Profile("mine",
    rules_of(10, guard=2, sticky=1, sums=1, products=1, quotients=1))``.  For any number of digits add an entry to
    ``_FAMILIES`` there.  The programs and the port then accept the name, and so does the compiled engine up to nine
    digits.  (Such a profile already exists as ``rounding:10`` and only serves as an example.)
@@ -49,7 +49,7 @@ INTERVAL = "interval:P"
 
 
 def hosted(name: str) -> Numbers | None:
-    """Return an arithmetic that is not decimal by its name, such as ``float64`` or ``exact``, or None if unknown.
+    """Return the arithmetic with this name if it is not decimal, such as ``float64`` or ``exact``, otherwise None.
 
     Raise ArgumentError if the number of bits or digits is out of range.
     """

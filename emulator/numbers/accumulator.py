@@ -26,7 +26,7 @@ State = tuple[int, int, int]
 def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
     """Return the sum of the accumulator (FAC) and a number.
 
-    The sum of two zeros is +0, or with ``rules.as_1962`` the zero in FAC with its sign.
+    The sum of two zeros is +0.  With ``rules.as_1962`` it is the zero in FAC, with the sign of that zero.
     """
     # IBM's subroutine tests for zero operands first: x + 0 is x unchanged, 0 + x is x, and profiles differ in 0 + 0.
     if mb == 0:
@@ -116,7 +116,8 @@ def largest(sign: int, rules: Rules) -> int:
 def in_range(m: int, e: int, over: int, rules: Rules) -> State:
     """Check the range of a result.  Return it and its event: 0, ``over`` if too large, or ``over + 1`` if too small.
 
-    A number that is too large becomes the largest number, and one that is too small a zero, with the same sign.
+    A number that is too large becomes the largest number, and a number that is too small becomes a zero.  Both keep
+    their sign.
     """
     if e > MAX_EXPONENT:
         return largest(m, rules), MAX_EXPONENT, over

@@ -7,7 +7,7 @@ printed.  Minus zero, which the machine marked with a flag, is (0, MINUS_ZERO). 
 may return an exponent out of range, which emulator/numbers/accumulator.py then handles.
 
 The functions use only integers and loops, so that numba can compile them, and ``rules`` is a tuple of integers for
-the same reason.  :data:`PROFILES` gives the source of each rule.
+the same reason.  The comments on :data:`PROFILES` give the source of each rule.
 """
 
 from __future__ import annotations
@@ -286,10 +286,9 @@ def square_root(mantissa: int, exponent: int, rules: Rules) -> tuple[int, int]:
 
 @dataclass(frozen=True, slots=True)
 class Profile:
-    """A decimal arithmetic: its rules for truncation and rounding, and the source of these rules."""
+    """A decimal arithmetic: its name, and its rules for truncation and rounding."""
 
     name: str
-    source: str
     rules: Rules
 
     @property
@@ -311,33 +310,23 @@ def rules_of(
     return Rules(digits, 10 * low, low, guard, sticky, sums, products, quotients, as_1962)
 
 
-TRUNCATING = Profile(
-    "truncating",
-    "thesis p. 116 (eight digits, no rounding occurs); signs of zero: the thesis, as printed; signs of results that "
-    "underflow or are divided by zero, and integer powers: IBM FORTRAN II-D executed in a simulator",
-    rules_of(8),
-)
-IBM1962 = Profile(
-    "ibm1962",
-    "IBM's library of 1962, executed digit by digit in a simulator: products rounded half up, the rest truncated",
-    rules_of(8, products=1, as_1962=1),
-)
-TRUNCATING1962 = Profile(
-    "truncating1962",
-    "thesis p. 116 (no rounding occurs), and IBM's library of 1962 for everything about which the thesis is silent",
-    rules_of(8, as_1962=1),
-)
+# Thesis p. 116: eight digits, no rounding occurs.  Signs of zeros are as the thesis prints them.  Signs of results that
+# underflow or are divided by zero, and integer powers, are those of IBM FORTRAN II-D, executed in a simulator.
+TRUNCATING = Profile("truncating", rules_of(8))
+# IBM's library of 1962, executed digit by digit in a simulator: products are rounded half up, other results truncated.
+IBM1962 = Profile("ibm1962", rules_of(8, products=1, as_1962=1))
+# Thesis p. 116 (no rounding occurs), and IBM's library of 1962 for everything about which the thesis is silent.
+TRUNCATING1962 = Profile("truncating1962", rules_of(8, as_1962=1))
 PROFILES = {profile.name: profile for profile in (TRUNCATING, IBM1962, TRUNCATING1962)}
 
 
-# The families of profiles with any number of digits P: the source and the rules of each.
-_FAMILIES: dict[str, tuple[str, dict[str, int]]] = {
-    "truncating": (TRUNCATING.source, {}),
-    "guarded": ("truncating, with a guard digit in sums", {"guard": 1}),
-    "rounding": (
-        "exact result, rounded half up",
-        {"guard": 2, "sticky": 1, "sums": 1, "products": 1, "quotients": 1},
-    ),
+# The families of profiles with any number of digits P, and the rules of each as arguments of ``rules_of``.
+_FAMILIES: dict[str, dict[str, int]] = {
+    "truncating": {},
+    # As truncating, with a guard digit in sums.
+    "guarded": {"guard": 1},
+    # The exact result, rounded half up.
+    "rounding": {"guard": 2, "sticky": 1, "sums": 1, "products": 1, "quotients": 1},
 }
 FAMILIES = tuple(f"{family}:P" for family in _FAMILIES)
 
@@ -345,7 +334,7 @@ FAMILIES = tuple(f"{family}:P" for family in _FAMILIES)
 def size_in(name: str, count: str, least: int, most: int, unit: str) -> int:
     """Return the number of digits or bits, ``count``, in the name of an arithmetic.
 
-    Raise ArgumentError if it is not an integer from ``least`` to ``most``; the message calls it by ``unit``.
+    Raise ArgumentError, whose message names the ``unit``, if it is not an integer from ``least`` to ``most``.
     """
     if not (count.isdecimal() and count.isascii() and len(count) < 10 and least <= int(count) <= most):
         raise ArgumentError(f"{name[:40]}: the number of {unit} must be {least} to {most}")
@@ -368,5 +357,5 @@ def profile(name: str) -> Profile:
         raise ArgumentError(
             f"no arithmetic is called {quoted(name)}; the names are {', '.join((*PROFILES, *FAMILIES))}"
         )
-    source, rules = _FAMILIES[family]
-    return Profile(name, source, rules_of(size_in(name, count, MIN_DIGITS, MAX_DIGITS, "digits"), **rules))
+    digits = size_in(name, count, MIN_DIGITS, MAX_DIGITS, "digits")
+    return Profile(name, rules_of(digits, **_FAMILIES[family]))

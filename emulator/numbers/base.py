@@ -40,7 +40,12 @@ class Undecided(Exception):
 
 
 class Numbers(ABC):
-    """The base class of the arithmetics that can run object code."""
+    """The base class of the arithmetics that can run object code.
+
+    ``is_costly`` is True if operations can take much longer than those of the decimal arithmetics.
+    """
+
+    is_costly = False
 
     @property
     @abstractmethod
@@ -84,7 +89,7 @@ class Numbers(ABC):
 
     @abstractmethod
     def divide(self, dividend: Number, divisor: Number) -> Number:
-        """Return the quotient.  Raise Trap with an error code, or Undecided if there is no answer."""
+        """Return the quotient.  Raise Trap with an error code, or Undecided if it cannot be represented."""
 
     @abstractmethod
     def negate(self, value: Number) -> Number:
@@ -147,11 +152,6 @@ class Numbers(ABC):
         """Return the number as text in the form that a trace shows."""
         return self.text(value)
 
-    @property
-    def is_costly(self) -> bool:
-        """True if operations of this arithmetic can take much longer than those of the decimal one."""
-        return False
-
     def work(self, operation: str, first: Number, second: Number = 0) -> int:
         """Estimate the additional steps that a slow operation takes (:mod:`emulator.numbers.work`).
 
@@ -205,8 +205,15 @@ def cut_decimal(whole: int, power: int, digits: int) -> tuple[int, int]:
     return (mantissa if whole > 0 else -mantissa), size + power
 
 
+def binary_value(number: tuple[int, int, int, int]) -> Fraction | int:
+    """Return the exact value of a finite mpmath number, given as its internal tuple."""
+    sign, mantissa, exponent, _ = number
+    whole = -int(mantissa) if sign else int(mantissa)
+    return whole * 2**exponent if exponent >= 0 else Fraction(whole, 2**-exponent)
+
+
 def decimal_text(whole: int, power: int) -> str:
-    """Return ``whole * 10**power``, which is not zero, as text: written out if that is short, or with an exponent."""
+    """Return ``whole * 10**power``, which must not be zero, as text.  Only long numbers have an exponent."""
     sign, digits = ("-" if whole < 0 else ""), str(abs(whole)).rstrip("0")
     point = decimal_length(whole) + power
     # Numbers with at most twenty digits before the point, or at most three zeros right after it, have no exponent.

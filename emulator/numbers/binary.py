@@ -114,25 +114,17 @@ class FloatNumbers(Numbers):
                 return -_INFINITE, "F2"
             return self._rounded(math.log(abs(value))), "F3" if value < 0 else ""
         if name == "EXP":
-            return self._exp(value)
+            result = self._or_infinite(math.exp, value)
+            return result, "F4" if result == _INFINITE else "F5" if result == 0 else ""
         if name in ("SIN", "COS") and value in (_INFINITE, -_INFINITE):
             return math.nan, "F1"
         compute: Callable[[float], float] = getattr(math, name.lower())
         return self._rounded(compute(value)), ""
 
-    def _exp(self, value: float) -> tuple[float, str]:
-        try:
-            result = self._rounded(math.exp(value))
-        except OverflowError:
-            return _INFINITE, "F4"
-        if result == _INFINITE:
-            return result, "F4"
-        return result, "F5" if result == 0 else ""
-
     def power(self, base: float, exponent: float) -> tuple[float, str]:
         if base == 0:
             return self.integer_power(0.0, (exponent > 0) - (exponent < 0))
-        result = self._raised(abs(base), exponent)
+        result = self._or_infinite(math.pow, abs(base), exponent)
         code = "F4" if result == _INFINITE else "F5" if result == 0 else "F6" if base < 0 else ""
         return result, code
 
@@ -141,13 +133,13 @@ class FloatNumbers(Numbers):
             return _INFINITE, "E7"
         if base == 0 or base - base != 0:
             return self._rounded(float(base**count)), ""
-        result = self._raised(abs(base), float(count))
+        result = self._or_infinite(math.pow, abs(base), float(count))
         code = "E3" if result == _INFINITE else "E4" if result == 0 else ""
         return (-result if base < 0 and count % 2 else result), code
 
-    def _raised(self, base: float, exponent: float) -> float:
+    def _or_infinite(self, compute: Callable[..., float], *arguments: float) -> float:
         try:
-            return self._rounded(math.pow(base, exponent))
+            return self._rounded(compute(*arguments))
         except OverflowError:
             return _INFINITE
 

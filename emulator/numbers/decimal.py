@@ -5,12 +5,14 @@ A number is the pair (mantissa, exponent) that emulator/numbers/arithmetic.py de
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
 from emulator.numbers import accumulator, arithmetic, functions, work
+from emulator.numbers.accumulator import State
 from emulator.numbers.arithmetic import MINUS_ZERO, ZERO, Profile, Rules
 from emulator.numbers.base import Numbers, Trap, cut_decimal
 from emulator.numbers.fields import (
@@ -25,6 +27,18 @@ from emulator.numbers.fields import (
 )
 
 Pair = tuple[int, int]
+
+
+def _operation(rule: Callable[[int, int, int, int, Rules], State]) -> Callable[..., Pair]:
+    """Return the method that computes with a rule of the accumulator and raises Trap for its event."""
+
+    def method(self: DecimalNumbers, first: Pair, second: Pair) -> Pair:
+        m, e, event = rule(first[0], first[1], second[0], second[1], self._drawn)
+        if event:
+            raise Trap(event, (m, e))
+        return m, e
+
+    return method
 
 
 @dataclass(frozen=True)
@@ -55,28 +69,11 @@ class DecimalNumbers(Numbers):
             return 0, MINUS_ZERO if minus else ZERO
         return cut_decimal(whole, power, self._rules.digits)
 
-    def add(self, first: Pair, second: Pair) -> Pair:
-        m, e, event = accumulator.add(first[0], first[1], second[0], second[1], self._drawn)
-        return self._trapped(m, e, event) if event else (m, e)
-
-    def subtract(self, first: Pair, second: Pair) -> Pair:
-        m, e, event = accumulator.subtract(first[0], first[1], second[0], second[1], self._drawn)
-        return self._trapped(m, e, event) if event else (m, e)
-
-    def subtract_reversed(self, first: Pair, second: Pair) -> Pair:
-        m, e, event = accumulator.subtract_reversed(*first, *second, self._drawn)
-        return self._trapped(m, e, event) if event else (m, e)
-
-    def multiply(self, first: Pair, second: Pair) -> Pair:
-        m, e, event = accumulator.multiply(first[0], first[1], second[0], second[1], self._drawn)
-        return self._trapped(m, e, event) if event else (m, e)
-
-    def divide(self, dividend: Pair, divisor: Pair) -> Pair:
-        m, e, event = accumulator.divide(dividend[0], dividend[1], divisor[0], divisor[1], self._drawn)
-        return self._trapped(m, e, event) if event else (m, e)
-
-    def _trapped(self, mantissa: int, exponent: int, event: int) -> Pair:
-        raise Trap(event, (mantissa, exponent))
+    add = _operation(accumulator.add)
+    subtract = _operation(accumulator.subtract)
+    subtract_reversed = _operation(accumulator.subtract_reversed)
+    multiply = _operation(accumulator.multiply)
+    divide = _operation(accumulator.divide)
 
     def negate(self, value: Pair) -> Pair:
         return accumulator.negate(*value)

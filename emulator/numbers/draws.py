@@ -1,12 +1,8 @@
 """Random rounding: the random numbers of stochastic arithmetic, and the rounding of an integer with one of them.
 
 Each operation of a run that may round uses one random number, whether it rounds or not.  Operation n (from 1 on) of a
-run with seed s uses
-
-    draw(s, n) = floor(10**8 * mix(mix(n) xor mix(s xor 0x9E3779B9)) / 2**32),
-
-where ``mix`` is the 32-bit finalizer of MurmurHash3 (A. Appleby, public domain).  The numbers are therefore the same on
-every machine and in every engine, and any operation can be recomputed separately.
+run with seed s uses ``draw(key_of(s), n)``.  The numbers are therefore the same on every machine and in every engine,
+and any operation can be recomputed separately.
 
 Three rules of rounding are defined.  f is the part of a result beyond its last digit, in units of that digit, and
 0 <= f < 1.  A result with f = 0 is exact and is not rounded.
@@ -19,9 +15,6 @@ Three rules of rounding are defined.  f is the part of a result beyond its last 
   rounding (RR) of Monte Carlo arithmetic (D. S. Parker, Monte Carlo arithmetic, UCLA CSD-970002, 1997) and the
   stochastic rounding (SR) of M. Croci et al., Stochastic rounding: implementation, error analysis and applications,
   R. Soc. Open Sci. 9 (2022) 211631.
-
-Monte Carlo arithmetic's precision bounding (PB) and its full variant (MCA), which also perturb operands, are not
-provided (docs/reference/machine.md gives the reason).
 
 The functions use only integers, so that numba can compile them.
 """
@@ -36,7 +29,7 @@ MAX_SEED = 2**32 - 1
 
 
 def mix(word: int) -> int:
-    """Return a 32-bit integer with its bits thoroughly mixed (the last step of the hash function MurmurHash3)."""
+    """Return a 32-bit integer with its bits mixed by the finalizer of MurmurHash3 (A. Appleby, public domain)."""
     # The products may exceed 64 bits, which compiled code drops; the mask keeps only the lowest 32 bits anyway.
     word ^= word >> 16
     word = word * 0x85EBCA6B & 0xFFFFFFFF

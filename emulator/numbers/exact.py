@@ -14,7 +14,7 @@ from fractions import Fraction
 from emulator.numbers import work
 from emulator.numbers.arithmetic import MINUS_ZERO, ZERO
 from emulator.numbers.base import Numbers, Undecided, cut_decimal, decimal_length
-from emulator.numbers.roots import MAX_ROOTS, Rational, RootSum, quotient, square_root
+from emulator.numbers.roots import MAX_ROOTS, Rational, RootSum, quotient, square_root, terms_of
 
 Exact = Rational | RootSum
 
@@ -36,6 +36,8 @@ _KNOWN: dict[tuple[str, Rational], int] = {("SIN", 0): 0, ("ATAN", 0): 0, ("COS"
 @dataclass(frozen=True)
 class ExactNumbers(Numbers):
     """The arithmetic of rational numbers and sums of square roots."""
+
+    is_costly = True
 
     @property
     def name(self) -> str:
@@ -84,10 +86,6 @@ class ExactNumbers(Numbers):
         if _length(value) > MAX_BITS:
             raise Undecided(_TOO_LONG)
         return value
-
-    @property
-    def is_costly(self) -> bool:
-        return True
 
     def work(self, operation: str, first: Exact, second: Exact = 0) -> int:
         a, b = _longest(first), _longest(second)
@@ -170,23 +168,19 @@ def _too_long(base: Exact, count: int) -> bool:
     return not isinstance(base, RootSum) and (_longest(base) - 1) * abs(count) > MAX_BITS
 
 
-def _parts(value: Exact) -> tuple[tuple[int, Rational], ...]:
-    return value.terms if isinstance(value, RootSum) else ((1, value),)
-
-
 def _length(value: Exact) -> int:
     """Return the total number of bits of all integers of which a number consists."""
-    return sum(n.bit_length() + c.numerator.bit_length() + c.denominator.bit_length() for n, c in _parts(value))
+    return sum(n.bit_length() + c.numerator.bit_length() + c.denominator.bit_length() for n, c in terms_of(value))
 
 
 def _longest(value: Exact) -> int:
     """Return the number of bits of the longest numerator or denominator in a number."""
-    return max(max(c.numerator.bit_length(), c.denominator.bit_length()) for _, c in _parts(value))
+    return max(max(c.numerator.bit_length(), c.denominator.bit_length()) for _, c in terms_of(value))
 
 
 def _root_steps(operation: str, first: Exact, second: Exact) -> int:
-    a, b, terms_first, terms_second = _longest(first), _longest(second), len(_parts(first)), len(_parts(second))
-    radicands = [n.bit_length() for n, _ in (*_parts(first), *_parts(second))]
+    a, b, terms_first, terms_second = _longest(first), _longest(second), len(terms_of(first)), len(terms_of(second))
+    radicands = [n.bit_length() for n, _ in (*terms_of(first), *terms_of(second))]
     # To find the kind of a term, one integer square root is computed for each root that the sum already contains.
     roots = 2 + work.quotient(2 * max(radicands), 2 * max(radicands))
     if operation in ("add", "subtract"):

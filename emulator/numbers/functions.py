@@ -19,15 +19,7 @@ from operator import mul
 from typing import Any
 
 from emulator.numbers.accumulator import PRODUCT_OVER, State, in_range, whole_power
-from emulator.numbers.arithmetic import (
-    MAX_EXPONENT,
-    MIN_EXPONENT,
-    MINUS_ZERO,
-    ZERO,
-    Rules,
-    from_integer,
-    square_root,
-)
+from emulator.numbers.arithmetic import MAX_EXPONENT, MIN_EXPONENT, MINUS_ZERO, ZERO, Rules, from_integer, square_root
 from emulator.numbers.base import cut_decimal, decimal_length
 from emulator.numbers.draws import randomly
 from emulator.numbers.work import multiplied
@@ -225,51 +217,29 @@ def _cut_value(compute: Callable[[Any], Any], rules: Rules, more: int) -> Value:
     ``more`` is the number of digits that the computation itself loses.  If 200 extra digits do not decide the rounding,
     the value is assumed to equal a P-digit number exactly.
     """
+    from mpmath.libmp import to_digits_exp
+
+    # These digits decide the rounding, unless all digits after them are zeros or all are nines.
+    decisive = rules.digits + (_RANDOM if rules.random else 0)
     extra = 15
     while True:
         context = _context(rules.digits + extra + more)
         value = compute(context)
-        result = _cut_exactly(context, value, rules)
-        if result is None and extra > 200:
-            result = _nearest(context, value, rules)
-        if result is not None:
-            return _in_range(*result, rules, "F4", "F5")
+        if not value:
+            return Value(0, ZERO)
+        sign, digits, exponent = to_digits_exp(value._mpf_, context.dps)
+        # The last six digits may be wrong, so they are ignored.
+        tail = digits[decisive:-6]
+        if tail.strip("0") and tail.strip("9"):
+            size = int(digits)
+            break
+        if extra > 200:
+            size = int(digits[:decisive]) + (digits[decisive] == "9")
+            digits = digits[:decisive]
+            break
         extra *= 2
-
-
-def _digits(value: Any, context: Any) -> tuple[int, int]:
-    """Return an mpmath number as an integer of many digits and a power of ten."""
-    text = context.nstr(value, context.dps, strip_zeros=False, min_fixed=1, max_fixed=0)
-    body, _, power_text = text.partition("e")
-    sign = -1 if body.startswith("-") else 1
-    whole, _, fraction = body.lstrip("-").partition(".")
-    return sign * int(whole + fraction), int(power_text or 0) - len(fraction)
-
-
-def _cut_exactly(context: Any, value: Any, rules: Rules) -> tuple[int, int] | None:
-    """Round a value to P digits, or return None if the digits that follow are all nines or zeros and do not decide."""
-    if not value:
-        return 0, ZERO
-    number, power_of_ten = _digits(value, context)
-    text = str(abs(number))
-    # The last six digits may be wrong, so they are ignored.
-    tail = text[_decisive(rules) : -6]
-    if tail.strip("0") == "" or tail.strip("9") == "":
-        return None
-    return _cut(number, power_of_ten, rules)
-
-
-def _decisive(rules: Rules) -> int:
-    """Return the number of digits after which the remaining digits decide the rounding only if all are 0 or 9."""
-    return rules.digits + (_RANDOM if rules.random else 0)
-
-
-def _nearest(context: Any, value: Any, rules: Rules) -> tuple[int, int]:
-    """Round a value to P digits, given that it equals a number with few digits to within 10**-200."""
-    number, power_of_ten = _digits(value, context)
-    text, digits = str(abs(number)), _decisive(rules)
-    size = int(text[:digits]) + (text[digits] == "9")
-    return _cut(size if number > 0 else -size, power_of_ten + len(text) - digits, rules)
+    number, power_of_ten = (-size if sign else size), exponent + 1 - len(digits)
+    return _in_range(*_cut(number, power_of_ten, rules), rules, "F4", "F5")
 
 
 def _cut(number: int, power_of_ten: int, rules: Rules) -> tuple[int, int]:

@@ -18,7 +18,7 @@ from functools import cached_property, wraps
 from typing import Any
 
 from emulator.numbers.arithmetic import MINUS_ZERO, ZERO, wrap_integer
-from emulator.numbers.base import Numbers, Undecided, cut_decimal
+from emulator.numbers.base import Numbers, Undecided, binary_value, cut_decimal
 from emulator.numbers.work import decimal_function
 
 Interval = tuple[Decimal, Decimal]
@@ -45,6 +45,7 @@ class IntervalNumbers(Numbers):
     """The arithmetic of intervals whose two ends have ``places`` digits each."""
 
     places: int
+    is_costly = True
 
     @property
     def name(self) -> str:
@@ -167,11 +168,11 @@ class IntervalNumbers(Numbers):
         return self._mpmath.mpf([str(value[0]), str(value[1])])
 
     def _outward(self, value: Any) -> Interval:
-        low, high = (_fraction(end) for end in value._mpi_)
-        return self._quotient(self._down, low), self._quotient(self._up, high)
-
-    def _quotient(self, context: Context, value: Fraction) -> Decimal:
-        return context.divide(Decimal(value.numerator), Decimal(value.denominator))
+        low, high = map(binary_value, value._mpi_)
+        return (
+            self._down.divide(Decimal(low.numerator), Decimal(low.denominator)),
+            self._up.divide(Decimal(high.numerator), Decimal(high.denominator)),
+        )
 
     def exact(self, value: Interval, digits: int) -> Fraction:
         return (Fraction(value[0]) + Fraction(value[1])) / 2
@@ -196,16 +197,7 @@ class IntervalNumbers(Numbers):
         low, high = value
         return super().text(value) if low == high else f"[{low.normalize(self._down)}, {high.normalize(self._up)}]"
 
-    @property
-    def is_costly(self) -> bool:
-        return True
-
     def work(self, operation: str, first: Any, second: Any = 0) -> int:
         if operation in ("SIN", "COS", "ATAN", "EXP", "LOG", "power"):
             return 4 * decimal_function(0)
         return 2 * abs(second) + 2 if operation == "integer_power" else 4
-
-
-def _fraction(value: tuple[int, int, int, int]) -> Fraction:
-    sign, mantissa, exponent, _ = value
-    return Fraction(-int(mantissa) if sign else int(mantissa)) * Fraction(2) ** exponent

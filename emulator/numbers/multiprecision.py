@@ -17,7 +17,16 @@ from mpmath.libmp import from_rational, round_nearest
 
 from emulator.numbers import accumulator, work
 from emulator.numbers.arithmetic import ZERO
-from emulator.numbers.base import SHOWN, Numbers, Trap, Undecided, cut_decimal, decimal_length, decimal_text
+from emulator.numbers.base import (
+    SHOWN,
+    Numbers,
+    Trap,
+    Undecided,
+    binary_value,
+    cut_decimal,
+    decimal_length,
+    decimal_text,
+)
 
 MIN_BITS, MAX_BITS = 2, 100_000
 MAX_POWER = 100_000
@@ -28,6 +37,7 @@ class MultiprecisionNumbers(Numbers):
     """The arithmetic of binary numbers with ``bits`` bits, which are objects of a separate mpmath context."""
 
     bits: int
+    is_costly = True
 
     @property
     def name(self) -> str:
@@ -138,10 +148,6 @@ class MultiprecisionNumbers(Numbers):
             return base**count, ""
         return self._coded(base**count, "E3", "E4")
 
-    @property
-    def is_costly(self) -> bool:
-        return True
-
     def work(self, operation: str, first: Any, second: Any = 0) -> int:
         bits = self.bits
         if operation == "multiply":
@@ -164,11 +170,7 @@ class MultiprecisionNumbers(Numbers):
         return 4 * work.series(bits) if operation == "power" else work.series(bits + reach)
 
     def exact(self, value: Any, digits: int) -> Fraction | int | None:
-        if not self._context.isfinite(value):
-            return None
-        sign, mantissa, exponent, _ = value._mpf_
-        whole = -int(mantissa) if sign else int(mantissa)
-        return whole * 2**exponent if exponent >= 0 else Fraction(whole, 2**-exponent)
+        return binary_value(value._mpf_) if self._context.isfinite(value) else None
 
     def cut(self, value: Any, digits: int) -> tuple[int, int]:
         exact = self.exact(value, digits)

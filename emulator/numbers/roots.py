@@ -46,9 +46,6 @@ class RootSum:
 
     __rmul__ = __mul__
 
-    def __abs__(self) -> RootSum:
-        return -self if self.sign() < 0 else self
-
     def sign(self) -> int:
         """Return the sign of the sum, -1 or 1.  A sum of this class is never zero."""
         bits = _FIRST_BITS
@@ -95,7 +92,7 @@ def product(m: int, c: Rational, n: int, d: Rational) -> tuple[int, Rational]:
 
 
 def gathered(terms: Iterable[tuple[int, Rational]]) -> Rational | RootSum:
-    """Add terms, and merge roots that are multiples of each other.  Raise Undecided if more than MAX_ROOTS remain."""
+    """Add terms, and merge roots that are multiples of each other.  Raise Undecided if more than MAX_ROOTS are left."""
     coefficients: dict[int, Rational] = {}
     for radicand, coefficient in terms:
         if radicand in coefficients:
@@ -131,7 +128,7 @@ def square_root(value: Rational) -> Rational | RootSum:
 
 
 def quotient(dividend: Rational | RootSum, divisor: RootSum) -> Rational | RootSum | None:
-    """Divide by a sum of one or two square roots.  Return None for a divisor with more."""
+    """Divide by a sum of one or two square roots.  Return None for a divisor with more roots."""
     if len(divisor.terms) > 2:
         return None
     # (a + b) * (a - b) is rational if a and b are terms of a sum of roots: multiply by the conjugate.

@@ -23,17 +23,26 @@ Values = tuple[Number, ...]
 MAJORITY = "majority"
 
 
+def _operation(name: str) -> Callable[..., Values]:
+    def method(self: SampledNumbers, first: Values, second: Values) -> Values:
+        return self._each(name, first, second)
+
+    return method
+
+
 @dataclass(frozen=True)
 class SampledNumbers(Numbers):
     """An arithmetic whose numbers are tuples: the values in N random runs that take the same branches.
 
-    ``choice`` is ``mean`` or ``majority``.  ``on_write`` receives the columns and the values of each printed number.
+    ``choice``, ``mean`` or ``majority``, is the rule for the branch of an IF.  ``on_write`` is called with the columns
+    and the values of each printed number.
     """
 
     name_: str
     members: Sequence[Numbers]
     choice: str = "mean"
     on_write: Callable[[str, Values], None] | None = None
+    is_costly = True
 
     @property
     def name(self) -> str:
@@ -47,7 +56,7 @@ class SampledNumbers(Numbers):
         return replace(self, members=[member.fresh() for member in self.members])
 
     def estimate(self, value: Values) -> Estimate | None:
-        """Estimate a number's significant digits from its values in the runs.  Return None if one is not finite."""
+        """Estimate a number's significant digits from its values in the runs, or return None if one is not finite."""
         return estimate(self.values(value), self.digits)
 
     def values(self, value: Values) -> list[Fraction | int | None]:
@@ -82,20 +91,11 @@ class SampledNumbers(Numbers):
         results = [member.read(field, columns) for member in self.members]
         return tuple(value for value, _ in results), results[0][1]
 
-    def add(self, first: Values, second: Values) -> Values:
-        return self._each("add", first, second)
-
-    def subtract(self, first: Values, second: Values) -> Values:
-        return self._each("subtract", first, second)
-
-    def subtract_reversed(self, first: Values, second: Values) -> Values:
-        return self._each("subtract_reversed", first, second)
-
-    def multiply(self, first: Values, second: Values) -> Values:
-        return self._each("multiply", first, second)
-
-    def divide(self, dividend: Values, divisor: Values) -> Values:
-        return self._each("divide", dividend, divisor)
+    add = _operation("add")
+    subtract = _operation("subtract")
+    subtract_reversed = _operation("subtract_reversed")
+    multiply = _operation("multiply")
+    divide = _operation("divide")
 
     def negate(self, value: Values) -> Values:
         return self._each("negate", value)
@@ -162,10 +162,6 @@ class SampledNumbers(Numbers):
         if self.on_write is not None:
             self.on_write(columns, value)
         return columns, overflowed
-
-    @property
-    def is_costly(self) -> bool:
-        return True
 
     def work(self, operation: str, first: Any, second: Any = 0) -> int:
         steps = len(self.members)

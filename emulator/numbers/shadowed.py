@@ -50,11 +50,38 @@ class Shadowed:
     shadow: Any
 
 
+# An operation on fractions, which returns None if there is no result.
+Exactly = Callable[[Fraction, Fraction], Fraction | None]
+
+
+def _operation(name: str, exactly: Exactly) -> Callable[..., Shadowed]:
+    """Return the method that applies an operation, and computes the shadow of its result if anything was rounded."""
+
+    def method(self: ShadowedNumbers, first: Shadowed, second: Shadowed) -> Shadowed:
+        trap = None
+        try:
+            value = getattr(self.inner, name)(first.value, second.value)
+        except Trap as error:
+            trap, value = error, error.value
+        shadow = None
+        if first.shadow is not None or second.shadow is not None or not self._is_exact(value, first, second, exactly):
+            try:
+                shadow = getattr(self._finer, name)(self._shadow(first), self._shadow(second))
+            except Trap as error:
+                shadow = error.value
+        if trap is not None:
+            raise Trap(trap.event, Shadowed(value, shadow)) from None
+        return Shadowed(value, shadow)
+
+    return method
+
+
 @dataclass(frozen=True)
 class ShadowedNumbers(Numbers):
     """An arithmetic whose numbers also have more precise values, shadows.  The numbers are those of ``inner``."""
 
     inner: Numbers
+    is_costly = True
 
     @property
     def name(self) -> str:
@@ -112,40 +139,13 @@ class ShadowedNumbers(Numbers):
 
     # Operations.
 
-    def add(self, first: Shadowed, second: Shadowed) -> Shadowed:
-        return self._done("add", first, second, lambda a, b: a + b)
+    add = _operation("add", lambda a, b: a + b)
+    subtract = _operation("subtract", lambda a, b: a - b)
+    subtract_reversed = _operation("subtract_reversed", lambda a, b: b - a)
+    multiply = _operation("multiply", lambda a, b: a * b)
+    divide = _operation("divide", lambda a, b: a / b if b else None)
 
-    def subtract(self, first: Shadowed, second: Shadowed) -> Shadowed:
-        return self._done("subtract", first, second, lambda a, b: a - b)
-
-    def subtract_reversed(self, first: Shadowed, second: Shadowed) -> Shadowed:
-        return self._done("subtract_reversed", first, second, lambda a, b: b - a)
-
-    def multiply(self, first: Shadowed, second: Shadowed) -> Shadowed:
-        return self._done("multiply", first, second, lambda a, b: a * b)
-
-    def divide(self, dividend: Shadowed, divisor: Shadowed) -> Shadowed:
-        return self._done("divide", dividend, divisor, lambda a, b: a / b if b else None)
-
-    def _done(
-        self, name: str, first: Shadowed, second: Shadowed, exactly: Callable[[Fraction, Fraction], Fraction | None]
-    ) -> Shadowed:
-        """Apply an operation to two numbers, and compute the shadow of the result if anything was rounded."""
-        trap = None
-        try:
-            value = getattr(self.inner, name)(first.value, second.value)
-        except Trap as error:
-            trap, value = error, error.value
-        shadow = None
-        if first.shadow is not None or second.shadow is not None or not self._is_exact(value, first, second, exactly):
-            shadow = _shadow_operation(getattr(self._finer, name), self._shadow(first), self._shadow(second))
-        if trap is not None:
-            raise Trap(trap.event, Shadowed(value, shadow)) from None
-        return Shadowed(value, shadow)
-
-    def _is_exact(
-        self, value: Number, first: Shadowed, second: Shadowed, exactly: Callable[..., Fraction | None]
-    ) -> bool:
+    def _is_exact(self, value: Number, first: Shadowed, second: Shadowed, exactly: Exactly) -> bool:
         """Return True if ``value`` is the exact result.  For long numbers, which are not tested, return False."""
         a, b, x = self._fraction(first.value), self._fraction(second.value), self._fraction(value)
         if a is None or b is None or x is None or max(map(_length, (a, b, x))) > _LONGEST:
@@ -208,10 +208,6 @@ class ShadowedNumbers(Numbers):
     def write(self, field: Field, value: Shadowed) -> tuple[str, bool]:
         return self.inner.write(field, value.value)
 
-    @property
-    def is_costly(self) -> bool:
-        return True
-
     def work(self, operation: str, first: Any, second: Any = 0) -> int:
         a, b = (operand.value if isinstance(operand, Shadowed) else operand for operand in (first, second))
         inner_steps = self.inner.work(operation, a, b) if self.inner.is_costly or operation in COSTED else 0
@@ -227,11 +223,3 @@ class ShadowedNumbers(Numbers):
 
 def _length(value: Fraction) -> int:
     return max(value.numerator.bit_length(), value.denominator.bit_length())
-
-
-def _shadow_operation(operation: Callable[[Any, Any], Any], first: Any, second: Any) -> Any:
-    """Apply an operation to two shadows.  A result out of range becomes the number with which the program continues."""
-    try:
-        return operation(first, second)
-    except Trap as trap:
-        return trap.value

@@ -33,7 +33,7 @@ _LEVEL = 0.95
 class Estimate:
     """The mean of a number's values in several random runs, and three estimates of its significant digits.
 
-    ``is_zero``: the number is a computational zero.  ``is_exact``: all values are equal.
+    ``is_zero`` is True if the number is a computational zero, ``is_exact`` if all of its values are equal.
     """
 
     mean: Fraction

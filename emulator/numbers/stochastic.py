@@ -35,11 +35,6 @@ _FORM = re.compile(
     r"(?P<proportional>:proportional)?(?P<majority>:majority)?",
     re.ASCII,
 )
-_SOURCES = {
-    CESTAC: "up or down with probability 1/2 (CESTAC)",
-    OPPOSITE: "as the opposite of CESTAC with the same seed",
-    PROPORTIONAL: "up with a probability equal to the part that is cut off",
-}
 # The guard digits of sums.  The proportional rule compares the digits that are cut off with a draw of eight digits; the
 # other rules only compare them with zero.
 _GUARD, _FEW = 9, 2
@@ -159,7 +154,7 @@ def _name(width: str, seed: int, rule: int) -> str:
 def _profile(digits: int, seed: int, rule: int) -> Profile:
     guard = _GUARD if rule == PROPORTIONAL else _FEW
     rules = rules_of(digits, guard=guard, sticky=1)._replace(random=rule, key=key_of(seed))
-    return Profile(_name(str(digits), seed, rule), f"exact result, rounded {_SOURCES[rule]}", rules)
+    return Profile(_name(str(digits), seed, rule), rules)
 
 
 def stochastic(name: str) -> StochasticNumbers | StochasticBinaryNumbers | SampledNumbers | None:

@@ -1,10 +1,10 @@
 """The operations that Butler's procedure needs from an arithmetic: + - * of vectors, signs, square roots, exact
 text.
 
-A vector is a numpy array of floats or of Python objects. The formulas below use its
-operators, so that the same code of the procedure serves every arithmetic. A quantity has a *degree*: 1 for
-coordinates, 2 for the coefficients A, B, C of a plane and 3 for D. An arithmetic that stores numbers in a scaled unit
-needs the degree to convert them.
+A vector is a numpy array of floats or of Python objects. The formulas below use the operators of vectors, so that the
+same code of the procedure serves every arithmetic. A quantity has a *degree*, the number of coordinates that are
+multiplied in it: 1 for coordinates, 2 for the coefficients A, B, C of a plane and 3 for D. An arithmetic that stores
+numbers in a scaled unit needs the degree to convert them.
 """
 
 from abc import ABC, abstractmethod
@@ -43,7 +43,7 @@ class Arithmetic(ABC):
         """Convert a coordinate; ``minus`` marks a zero with a minus sign.  Raise RangeError if it is too large."""
 
     def tolerance(self, size: Fraction, degree: int) -> Scalar:
-        """Convert a tolerance for values of this degree (see the module).  Raise RangeError if it is too large."""
+        """Convert a tolerance for quantities of this degree.  Raise RangeError if it is too large."""
         return self.number(size)
 
     @cached_property
@@ -54,13 +54,13 @@ class Arithmetic(ABC):
     def quotient(self, value: Scalar, count: int) -> Scalar:
         """Divide ``value``, a sum of ``count`` coordinates, by ``count``."""
 
-    @abstractmethod
     def sign(self, values: Vector) -> NDArray[np.int8]:
         """Return -1, 0 or 1 for each value: the three branches of a FORTRAN IF."""
+        return np.asarray(values > 0, dtype=np.int8) - np.asarray(values < 0, dtype=np.int8)
 
     def within(self, values: Vector, slack: Vector) -> NDArray[np.bool_]:
         """Return, for each value, True if it lies in the closed interval from -slack to +slack."""
-        return np.asarray(self.sign(slack - abs(values)) >= 0)
+        return np.asarray(abs(values) <= slack, dtype=np.bool_)
 
     @abstractmethod
     def root(self, value: Scalar) -> Scalar:
@@ -68,11 +68,11 @@ class Arithmetic(ABC):
 
     @abstractmethod
     def exact(self, value: Scalar, degree: int) -> Exact:
-        """Return the exact value of a number.  If numbers are scaled, ``degree`` (see the module) gives the scale."""
+        """Return the exact value of a quantity of this degree, which determines the scale of scaled numbers."""
 
     @abstractmethod
     def text(self, value: Scalar, degree: int) -> str:
-        """Return the value as exact text. An arithmetic with a minus zero writes it ``-0``."""
+        """Return a quantity of this degree as exact text.  A minus zero is written ``-0``."""
 
     def exacts(self, values: Vector, degree: int) -> list[Exact]:
         return [self.exact(value, degree) for value in values]
@@ -94,25 +94,17 @@ class Arithmetic(ABC):
         return vector
 
     def is_zero(self, value: Scalar) -> bool:
-        return not self.sign(self.filled([value]))[0]
+        return bool(value == 0)
 
     def last_largest(self, values: Vector) -> int:
-        """Return the index of the largest value, or of the last one if several are equal."""
+        """Return the index of the largest value, or the last such index if several are equal."""
         # The listing's search replaces its candidate when the difference is zero or negative (program 1, 135 and 185;
         # program 3, 122), so the last of equal values wins.
-        index, largest = 0, values[0]
-        for i in range(1, len(values)):
-            if self.sign(self.filled([largest - values[i]]))[0] <= 0:
-                index, largest = i, values[i]
-        return index
+        return len(values) - 1 - int(np.argmax(values[::-1]))
 
     def descending(self, values: Vector) -> NDArray[np.intp]:
         """Return the indices that sort the values from largest to smallest.  Of equal values the last comes first."""
-        remaining = list(range(len(values)))
-        order = []
-        while remaining:
-            order.append(remaining.pop(self.last_largest(values[remaining])))
-        return np.array(order, np.intp)
+        return np.argsort(values, kind="stable")[::-1]
 
     def last_largest_square(self, values: Vector) -> int:
         """Return the index of the value with the largest square, or the last such index if several are equal."""
@@ -177,7 +169,10 @@ def at(equation: tuple[Number, ...], point: tuple[Number, ...]) -> Number:
 
 
 def moments(points: Point, p: Point, q: Point) -> tuple[Number, Number, Number]:
-    """Return O1, O2, O3, whose squares add up to a measure of the distance from the line P1 P2 (thesis p. 15)."""
+    """Return O1, O2, O3, the sum of whose squares grows with the distance of a point from a line (thesis p. 15).
+
+    The line goes through ``p`` and ``q``, the points P1 and P2 of the thesis.
+    """
     (x, y, z), (x1, y1, z1), (x2, y2, z2) = points, p, q
     # Statements 125 to 226 of program 1: the components of the cross product of P2 - P and P2 - P1.
     o1 = less((y2 - y) * (z2 - z1), (z2 - z) * (y2 - y1))

@@ -1,15 +1,19 @@
 """Binary arithmetics: ``float64`` and ``float32`` in numpy vectors, ``mp:BITS`` in mpmath numbers."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from emulator.numbers.base import binary_value
 from modern.geometry.numbers import Exact, exact_text
 from modern.port.arithmetic import Arithmetic, RangeError, Scalar, Vector
+
+if TYPE_CHECKING:
+    from emulator.numbers.multiprecision import MultiprecisionNumbers  # needs mpmath, which most hulls do not use
 
 
 @dataclass(frozen=True)
@@ -38,20 +42,8 @@ class FloatArithmetic(Arithmetic):
         signs: NDArray[np.int8] = np.sign(values).astype(np.int8)
         return signs
 
-    def within(self, values: Vector, slack: Vector) -> NDArray[np.bool_]:
-        return np.asarray(abs(values) <= slack)
-
-    def is_zero(self, value: Scalar) -> bool:
-        return bool(value == 0)
-
     def root(self, value: Scalar) -> Scalar:
         return np.sqrt(value)
-
-    def last_largest(self, values: Vector) -> int:
-        return len(values) - 1 - int(np.argmax(values[::-1]))
-
-    def descending(self, values: Vector) -> NDArray[np.intp]:
-        return np.argsort(values, kind="stable")[::-1]
 
     def surely_distinct(self, coordinates: Vector) -> bool:
         # Project the points on an irrational direction: equal points have equal projections, so strictly increasing
@@ -81,44 +73,27 @@ def _float_text(value: float) -> str:
     return exact_text(Fraction(value)) if "E" in text else text
 
 
-def _context() -> Any:
-    from mpmath import MPContext  # not at the top, because most hulls need no numbers of mpmath
-
-    return MPContext()
-
-
 @dataclass(frozen=True)
 class MultiprecisionArithmetic(Arithmetic):
-    """Binary floating point with any number of bits, rounded to nearest, without limits for exponents."""
+    """The emulator's binary numbers with any number of bits, rounded to nearest, without limits for exponents."""
 
-    bits: int
-    context: Any = field(default_factory=_context, compare=False)
-
-    def __post_init__(self) -> None:
-        self.context.prec = self.bits
+    system: "MultiprecisionNumbers"
 
     @property
     def name(self) -> str:
-        return f"mp:{self.bits}"
+        return self.system.name
 
     def number(self, value: Exact, minus: bool = False) -> Scalar:
-        from mpmath.libmp import from_rational, round_nearest
-
-        return self.context.make_mpf(from_rational(value.numerator, value.denominator, self.bits, round_nearest))
+        return self.system.nearest(value.numerator, value.denominator)
 
     def quotient(self, value: Scalar, count: int) -> Scalar:
         return value / count
 
-    def sign(self, values: Vector) -> NDArray[np.int8]:
-        return np.asarray(values > 0, dtype=np.int8) - np.asarray(values < 0, dtype=np.int8)
-
     def root(self, value: Scalar) -> Scalar:
-        return self.context.sqrt(value)
+        return self.system.function("SQRT", value)[0]
 
     def exact(self, value: Scalar, degree: int) -> Exact:
-        sign, mantissa, exponent, _ = value._mpf_
-        number = -int(mantissa) if sign else int(mantissa)
-        return number * 2**exponent if exponent >= 0 else Fraction(number, 2**-exponent)
+        return binary_value(value._mpf_)
 
     def text(self, value: Scalar, degree: int) -> str:
         return exact_text(self.exact(value, degree))

@@ -10,7 +10,6 @@ from fractions import Fraction
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from modern.geometry.numbers import Exact, exact_text
 from modern.port.arithmetic import Arithmetic, Scalar, Vector
@@ -42,15 +41,6 @@ class ExactArithmetic(Arithmetic):
 
     def quotient(self, value: Scalar, count: int) -> Scalar:
         return value // count
-
-    def sign(self, values: Vector) -> NDArray[np.int8]:
-        return np.asarray(values > 0, dtype=np.int8) - np.asarray(values < 0, dtype=np.int8)
-
-    def is_zero(self, value: Scalar) -> bool:
-        return bool(value == 0)
-
-    def last_largest(self, values: Vector) -> int:
-        return len(values) - 1 - int(np.argmax(values[::-1]))
 
     def last_largest_square(self, values: Vector) -> int:
         return self.last_largest(abs(values))
@@ -87,8 +77,8 @@ class ExactArithmetic(Arithmetic):
 def exact_arithmetic(coordinates: Sequence[Exact], wide: bool = False) -> ExactArithmetic:
     """Return the exact arithmetic for these coordinates. If ``wide`` is true, it does not use int64.
 
-    The unit is 1 / (12 d), where d is the common denominator of the coordinates. The inner point C is the mean of three
-    or four points, so in this unit its coordinates, and those of the points relative to C, are integers too.
+    The unit is 1 / (12 d), where d is the common denominator of the coordinates. The inside point C is the mean of
+    three or four points, so in this unit its coordinates, and those of the points relative to C, are integers too.
     """
     unit = 12 * math.lcm(*{value.denominator for value in coordinates})
     largest = max(abs(value.numerator) * (unit // value.denominator) for value in coordinates)

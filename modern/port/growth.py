@@ -29,9 +29,9 @@ class Remaining:
         self.tried = 0
 
     def swapped(self, index: int) -> None:
-        """Update the list after the first point became a vertex and the point now at ``index`` took its position.
+        """Update the keepers after the point at ``index`` became a vertex and exchanged places with the first point.
 
-        If the index is negative, the new vertex was already a vertex: rounded arithmetic can report one as outside.
+        The index is negative if the point was a vertex before: in rounded arithmetic a vertex can lie outside the hull.
         """
         if index > 0:
             self.keeper[index] = self.keeper[0]

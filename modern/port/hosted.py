@@ -12,6 +12,7 @@ from fractions import Fraction
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from emulator.numbers import DecimalNumbers, Numbers, Trap
 from emulator.numbers.arithmetic import MAX_EXPONENT, MIN_EXPONENT
@@ -103,6 +104,28 @@ class HostedArithmetic(Arithmetic):
     def sign(self, values: Vector) -> Vector:
         signs = (self.system.sign(value.value) for value in values.flat)
         return np.fromiter(signs, np.int8, values.size).reshape(values.shape)
+
+    # The machine compares numbers by subtracting them and testing the difference, which may underflow to zero.
+
+    def within(self, values: Vector, slack: Vector) -> NDArray[np.bool_]:
+        return np.asarray(self.sign(slack - abs(values)) >= 0)
+
+    def is_zero(self, value: HostedNumber) -> bool:
+        return self.system.sign(value.value) == 0
+
+    def last_largest(self, values: Vector) -> int:
+        index, largest = 0, values[0]
+        for i in range(1, len(values)):
+            if self.system.sign((largest - values[i]).value) <= 0:
+                index, largest = i, values[i]
+        return index
+
+    def descending(self, values: Vector) -> NDArray[np.intp]:
+        remaining = list(range(len(values)))
+        order = []
+        while remaining:
+            order.append(remaining.pop(self.last_largest(values[remaining])))
+        return np.array(order, np.intp)
 
     def keys(self, coordinates: Vector) -> Iterable[object]:
         return zip(*([self.exact(value, 1) for value in row] for row in coordinates), strict=True)

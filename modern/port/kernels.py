@@ -2,7 +2,7 @@
 
 The steps, decisions and numbers are those of :mod:`modern.port.growth` and :mod:`modern.port.polyhedron`, and the
 formulas are the same functions. Those modules run the exceptional stages: a stage that ends without a hull, that for
-the first time needs the correction of a pair of planes or of the inner point C, or whose new vertex is already a
+the first time needs the correction of a pair of planes or of the inside point C, or whose new vertex is already a
 vertex. For such a stage the kernel returns UNUSUAL and changes only the number of the equation to check.
 """
 
@@ -38,8 +38,8 @@ from modern.port.workspace import (
     tolerance,
 )
 
-# The results of a stage, in this order: completed, no further stage possible, left to numpy, no free slots for its
-# planes.
+# The results of a stage: it is completed; no further stage is possible; numpy must run the stage; there are not enough
+# free slots for its planes.
 GROWN, ENDED, UNUSUAL, FULL = range(4)
 
 # The number of points whose values are compared as a block with the largest value so far.
@@ -47,7 +47,7 @@ BLOCK = 256
 
 
 def keeper_among(point: Any, slots: Any, first: int, last: int) -> int:
-    """Return the first plane from slot ``first`` to ``last`` that the point is on or outside of, or -1."""
+    """Return the slot of the first plane, from ``first`` up to ``last``, that the point is on or outside of, or -1."""
     for slot in range(first, last):
         if slots.alive[slot] and is_not_inside(at(equation(slots.coefficients, slot), point), slots.tolerances[slot]):
             return slot
@@ -87,7 +87,7 @@ def strike_inside(cloud: Any, slots: Any, state: NDArray[np.int64]) -> None:
 def count_above(coordinates: NDArray[Any], start: int, end: int, plane_equation: Any, above: Any) -> int:
     """Count the points at which the value of a plane's equation exceeds ``above``.
 
-    A loop without branches computes several at a time.
+    The loop has no branches, so that the processor can compute several values at a time.
     """
     x, y, z = coordinates[0, start:end], coordinates[1, start:end], coordinates[2, start:end]
     count = 0
@@ -97,7 +97,7 @@ def count_above(coordinates: NDArray[Any], start: int, end: int, plane_equation:
 
 
 def farthest_outside(coordinates: NDArray[Any], count: int, plane_equation: Any, e: Any) -> int:
-    """Return the index of the point farthest outside a plane (of several the last), or -1 if none is outside."""
+    """Return the index of the point farthest outside a plane, the last of several, or -1 if no point is outside."""
     # A value within the slack counts as zero. The difference computed here is a zero of the number type of the values.
     largest = e if e > 0 else e - e
     index = -1
@@ -116,7 +116,10 @@ def farthest_outside(coordinates: NDArray[Any], count: int, plane_equation: Any,
 
 
 def outside_point(cloud: Any, slots: Any, state: NDArray[np.int64]) -> int:
-    """Return the index of the next vertex, -1 if no point is outside, -2 if a plane misses a point that defines it."""
+    """Return the index of the next vertex, or -1 if no point is outside the hull.
+
+    Return -2 if the equation of a plane does not hold at a point that defines the plane.
+    """
     while state[CHECK] < state[MADE]:
         slot = state[CHECK]
         if slots.alive[slot]:
@@ -134,8 +137,7 @@ def outside_point(cloud: Any, slots: Any, state: NDArray[np.int64]) -> int:
 
 
 def planes_to_replace(point: Any, slots: Any, scratch: Any, state: NDArray[np.int64]) -> int:
-    """List the planes that the point is outside of, in the order in which they are replaced, and return their
-    number.
+    """List the planes that the point is outside of, in the order in which they are replaced.  Return their number.
 
     The first is the plane that is being checked. No point is outside of earlier planes, because they were checked
     before.
@@ -172,9 +174,9 @@ def sort_descending(order: NDArray[np.int64], values: NDArray[Any], first: int, 
 
 
 def three_planes(count: int, index: int, cloud: Any, slots: Any, scratch: Any, state: Any, rules: Any) -> int:
-    """Write three new planes into empty slots for each plane to be replaced by the new vertex.
+    """Write three new planes into empty slots for each plane that the new vertex is outside of.
 
-    Return THROUGH if a new plane contains the inner point C, a case for which the listing had to be corrected,
+    Return THROUGH if a new plane contains the inside point C, a case for which the listing had to be corrected,
     otherwise 0. Return -1 if :mod:`modern.port.polyhedron` must compute the stage instead, because a plane is
     degenerate or rounding puts the new vertex outside it.
     """
@@ -340,7 +342,7 @@ def count_on(coordinates: NDArray[Any], start: int, end: int, plane_equation: An
 
 
 def satisfied(slots: Any, coordinates: NDArray[Any], counts: NDArray[np.int64], indices: NDArray[np.int64]) -> int:
-    """List the points on each plane as far as the array has room, and return their total number."""
+    """List the points on each plane, as far as the array ``indices`` has room, and return the number of all of them."""
     k, count = 0, coordinates.shape[1]
     for slot in range(len(slots.alive)):
         plane_equation, e, first = equation(slots.coefficients, slot), slots.tolerances[slot], k

@@ -5,6 +5,8 @@ are counted from 0 here, from 1 in the listing.
 """
 
 from dataclasses import dataclass
+from functools import reduce
+from operator import add
 
 import numpy as np
 
@@ -12,8 +14,8 @@ from modern.port.arithmetic import Arithmetic, Point, Scalar, Vector, at, line, 
 from modern.port.table import Equations, PointTable, Slack, snapped
 
 Four = tuple[Scalar, Scalar, Scalar, Scalar]
-# For each KPERP, the two coordinates in each of a line's two equations: (3.1) and (3.2), (3.1) and (3.3), (3.2) and
-# (3.3).
+# For each value of KPERP, the number of an axis on which the points of a line differ, the coordinates in the two
+# equations by which the listing describes the line: (3.1) and (3.2), (3.1) and (3.3), or (3.2) and (3.3).
 _PAIRS = {1: ((0, 1), (0, 2)), 2: ((0, 1), (1, 2)), 3: ((0, 2), (1, 2))}
 
 
@@ -27,8 +29,8 @@ class Opening:
     """The result of program 1: the kind of point set, and the planes or lines with which programs 2 and 3 begin.
 
     ``kind`` is ``point``, ``segment``, ``triangle``, ``coplanar``, ``solid`` or ``error``, and ``label`` is the
-    statement that decided it. ``lines`` has two equations for each line. ``plane`` is present for three or more
-    coplanar points and ``centre``, the point C, for a solid.
+    statement that decided the kind. ``lines`` has two equations for each line. ``plane`` is present for three or more
+    coplanar points and ``centre``, the inside point C, for a solid.
     """
 
     kind: str
@@ -92,7 +94,7 @@ def on_the_line(arithmetic: Arithmetic, points: PointTable, perpendicular: int, 
 
 
 def all_within(arithmetic: Arithmetic, equation: tuple[Scalar, ...], values: Vector, slack: Slack) -> bool:
-    """Return True if the values of a plane's or line's equation all lie between -e and +e, its tolerance."""
+    """Return True if all values of a plane's or line's equation lie from -e to +e, where e is its tolerance."""
     e = slack.of(tuple(arithmetic.filled([c]) for c in equation))
     return not arithmetic.sign(snapped(arithmetic, values, e)).any()
 
@@ -137,15 +139,8 @@ def open_hull(arithmetic: Arithmetic, points: PointTable, slack: Slack | None, t
 
 def mean(arithmetic: Arithmetic, points: PointTable, count: int) -> Point:
     """Return C, a point inside the hull: the mean of the first ``count`` points (statement 199)."""
-    x, y, z = (row[:count] for row in points.rows)
-
-    def average(row: Vector) -> Scalar:
-        total = row[0]
-        for value in row[1:]:
-            total = total + value
-        return arithmetic.quotient(total, count)
-
-    return average(x), average(y), average(z)
+    x, y, z = (arithmetic.quotient(reduce(add, row[:count]), count) for row in points.rows)
+    return x, y, z
 
 
 def tetrahedron(arithmetic: Arithmetic, points: PointTable, slack: Slack | None) -> Equations:

@@ -1,8 +1,6 @@
 """Convert the state of a finished run to its result: exact text, faces, and the history of the construction."""
 
-import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cmp_to_key
 
 import numpy as np
@@ -10,7 +8,7 @@ from numpy.typing import NDArray
 
 from modern.geometry.hull import Coefficients, Face, LazyMembers, LazyTuple, PointTexts, Stage
 from modern.geometry.numbers import Exact
-from modern.geometry.vectors import lowest_equation
+from modern.geometry.vectors import lowest_equation, whole
 from modern.port.arithmetic import Arithmetic, Scalar, Vector
 from modern.port.growth import Grown
 from modern.port.table import Equations, PointTable
@@ -28,72 +26,65 @@ def coefficients(arithmetic: Arithmetic, numbers: Sequence[Scalar], degrees: Seq
     return a, b, c, d
 
 
-@dataclass(frozen=True)
-class Faces:
-    """The faces of a result, computed from the final points and equations of a run."""
+On = list[NDArray[np.int64]]
 
-    arithmetic: Arithmetic
-    points: PointTable
 
-    def whole_points(self, indices: Sequence[int]) -> "dict[int, IntPoint]":
-        """Return the exact coordinates of the given points as integers in a common unit, keyed by point index."""
-        rows = [self.arithmetic.exacts(row[indices], 1) for row in self.points.rows]
-        unit = math.lcm(*{value.denominator for row in rows for value in row})
-        integers = [[value.numerator * (unit // value.denominator) for value in row] for row in rows]
-        return dict(zip(indices, zip(*integers, strict=True), strict=True))
+def polyhedral_faces(points: PointTable, table: Equations, on: On, vertex: NDArray[np.bool_]) -> Sequence[Face]:
+    """Return the faces of a polyhedron, computed on first access.  The arguments must not change afterwards."""
+    return LazyTuple(len(on), lambda: _polyhedral(points, table, on, vertex))
 
-    def polyhedral(self, table: Equations, on: list[NDArray[np.int64]], vertex: NDArray[np.bool_]) -> Sequence[Face]:
-        """Return the faces of a polyhedron, computed on first access.  The arguments must not change afterwards."""
-        return LazyTuple(len(on), lambda: self._polyhedral(table, on, vertex))
 
-    def _polyhedral(self, table: Equations, on: list[NDArray[np.int64]], vertex: NDArray[np.bool_]) -> list[Face]:
-        arithmetic, input_index, is_vertex = self.arithmetic, self.points.input_index.tolist(), vertex.tolist()
-        integer_points = self.whole_points(np.flatnonzero(vertex).tolist())
-        by_row = list(zip(table.coefficients, PLANE, strict=True))
-        exact = list(zip(*(arithmetic.exacts(row, degree) for row, degree in by_row), strict=True))
-        text = list(zip(*(arithmetic.texts(row, degree) for row, degree in by_row), strict=True))
-        faces = []
-        for k, defining in enumerate(table.defining.T.tolist()):
-            satisfied = on[k].tolist()
-            corners = [index for index in satisfied if is_vertex[index]]
-            boundary = [] if len(corners) == len(satisfied) else [index for index in satisfied if not is_vertex[index]]
-            if len(corners) > 1:
-                corners = [corners[i] for i in cyclic([integer_points[index] for index in corners], exact[k][:3])]
-            faces.append(
-                Face(
-                    coefficients=text[k],
-                    lowest=lowest_equation(exact[k]),
-                    defining=tuple([input_index[index] for index in defining]),
-                    polygon=tuple([input_index[index] for index in corners]),
-                    on=tuple([input_index[index] for index in boundary]),
-                )
+def _polyhedral(points: PointTable, table: Equations, on: On, vertex: NDArray[np.bool_]) -> list[Face]:
+    arithmetic, input_index, is_vertex = table.arithmetic, points.input_index.tolist(), vertex.tolist()
+    # The vertices as integers in a common unit, keyed by point index.
+    vertices = np.flatnonzero(vertex).tolist()
+    rows = [arithmetic.exacts(row[vertices], 1) for row in points.rows]
+    integer_points = dict(zip(vertices, whole(list(zip(*rows, strict=True)))[1], strict=True))
+    by_row = list(zip(table.coefficients, PLANE, strict=True))
+    exact = list(zip(*(arithmetic.exacts(row, degree) for row, degree in by_row), strict=True))
+    text = list(zip(*(arithmetic.texts(row, degree) for row, degree in by_row), strict=True))
+    faces = []
+    for k, defining in enumerate(table.defining.T.tolist()):
+        satisfied = on[k].tolist()
+        corners = [index for index in satisfied if is_vertex[index]]
+        boundary = [] if len(corners) == len(satisfied) else [index for index in satisfied if not is_vertex[index]]
+        if len(corners) > 1:
+            corners = [corners[i] for i in cyclic([integer_points[index] for index in corners], exact[k][:3])]
+        faces.append(
+            Face(
+                coefficients=text[k],
+                lowest=lowest_equation(exact[k]),
+                defining=tuple([input_index[index] for index in defining]),
+                polygon=tuple([input_index[index] for index in corners]),
+                on=tuple([input_index[index] for index in boundary]),
             )
-        return faces
+        )
+    return faces
 
-    def edges(
-        self, table: Equations, ends: NDArray[np.int64], on: list[NDArray[np.int64]], projection: int
-    ) -> tuple[Face, ...]:
-        """Return the sides of a polygon as faces.
 
-        ``projection`` is the number of the coordinate that was projected away, from 1; its coefficient is 0.
-        """
-        faces = []
-        zero = self.arithmetic.number(0)
-        for k, satisfied in enumerate(on):
-            row = [table.coefficients[i, k] for i in range(3)]
-            # The listing calls the projection KPROJ (statements 209 to 217).
-            row.insert(projection - 1, zero)
-            exact = [self.arithmetic.exact(value, degree) for value, degree in zip(row, LINE, strict=True)]
-            faces.append(
-                Face(
-                    coefficients=coefficients(self.arithmetic, row, LINE),
-                    lowest=lowest_equation(exact),
-                    defining=self.points.input_indices(table.defining[:, k]),
-                    polygon=self.points.input_indices(ends[:, k]),
-                    on=self.points.input_indices([index for index in satisfied.tolist() if index not in ends[:, k]]),
-                )
+def polygon_edges(
+    points: PointTable, table: Equations, ends: NDArray[np.int64], on: On, projection: int
+) -> tuple[Face, ...]:
+    """Return the sides of a polygon as faces.
+
+    ``projection`` is the number of the coordinate that was projected away, from 1; its coefficient is 0.
+    """
+    arithmetic, faces = table.arithmetic, []
+    for k, satisfied in enumerate(on):
+        row = [table.coefficients[i, k] for i in range(3)]
+        # The listing calls the projection KPROJ (statements 209 to 217).
+        row.insert(projection - 1, arithmetic.number(0))
+        exact = [arithmetic.exact(value, degree) for value, degree in zip(row, LINE, strict=True)]
+        faces.append(
+            Face(
+                coefficients=coefficients(arithmetic, row, LINE),
+                lowest=lowest_equation(exact),
+                defining=points.input_indices(table.defining[:, k]),
+                polygon=points.input_indices(ends[:, k]),
+                on=points.input_indices([index for index in satisfied.tolist() if index not in ends[:, k]]),
             )
-        return tuple(faces)
+        )
+    return tuple(faces)
 
 
 def stages(history: Sequence[tuple[Grown, NDArray[np.int64]]]) -> Sequence[Stage]:

@@ -28,7 +28,7 @@ def read_number(value: object) -> Read:
 
 
 def first_of_equals(keys: Iterable[object]) -> tuple[list[int], tuple[tuple[int, int], ...]]:
-    """Return the indices of points that repeat no earlier one, and pairs (repeated point, equal first point)."""
+    """Return the indices of distinct points, and for each repeated point its index and that of its first occurrence."""
     first_index: dict[object, int] = {}
     duplicates = []
     for index, key in enumerate(keys):
@@ -50,11 +50,11 @@ def fixed_arithmetic(name: str) -> Arithmetic | None:
         return FloatArithmetic(np.float64)
     if name == "float32":
         return FloatArithmetic(np.float32)
-    family, _, bits = name.partition(":")
+    family = name.partition(":")[0]
     if family not in {known.partition(":")[0] for known in NAMES}:
         raise ArgumentError(f"no arithmetic is called {quoted(name)}; choose one of {', '.join(NAMES)}")
     system = numbers(name)
-    return MultiprecisionArithmetic(int(bits)) if family == "mp" else HostedArithmetic(system)
+    return MultiprecisionArithmetic(system) if family == "mp" else HostedArithmetic(system)  # type: ignore[arg-type]
 
 
 def take(points: Points, name: str, wide: bool = False) -> tuple[Arithmetic, Vector]:

@@ -15,8 +15,9 @@ from modern.port.arithmetic import Arithmetic, Scalar, Vector, distance_squared,
 from modern.port.growth import BETWEEN, NUMBERING, TABLE_OF_LINES, Progress, Remaining, Stopped
 from modern.port.table import Equations, PointTable, Slack, turned
 
+# The number of lines that the listing's table holds.
 _LISTED_LINES = 51
-# MM and NN of the first three lines (statements 102+9 to 103).
+# The end points MM and NN of the first three lines (statements 102+9 to 103).
 _FIRST = np.array([(0, 1), (2, 1), (0, 2)]).T
 _FROM, _TO, _CONSTANT = np.array([0, 1, 2]), np.array([1, 2, 0]), np.array([0, 1, 0])
 
@@ -168,7 +169,7 @@ def middle(arithmetic: Arithmetic, points: PointTable, three: tuple[int, int, in
 
 
 def lowered(ends: NDArray[np.int64], not_vertices: Sequence[int]) -> list[int]:
-    """Return the numbers of the vertices at the ends of the lines, counting vertices only."""
+    """Return the numbers of the vertices at the ends of the lines, where only vertices are counted."""
     return [end - sum(g < end for g in set(not_vertices)) for end in ends.ravel().tolist()]
 
 

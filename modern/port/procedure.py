@@ -16,7 +16,7 @@ from modern.port.arithmetic import Arithmetic, RangeError, Scalar, Vector, at, l
 from modern.port.fast import choose
 from modern.port.growth import Progress, Stopped, grow
 from modern.port.opening import Opening, mean, open_hull, tetrahedron
-from modern.port.outcome import LINE, PLANE, Faces, coefficients, point_texts, stages, texts
+from modern.port.outcome import LINE, PLANE, coefficients, point_texts, polygon_edges, polyhedral_faces, stages, texts
 from modern.port.points import first_of_equals, take
 from modern.port.polygon import Polygon, projection, strike_between
 from modern.port.polyhedron import Polyhedron, are_vertices, strike_repeats
@@ -39,7 +39,7 @@ def convex_hull(
     """Return the convex hull of points by Butler's procedure (thesis chapter 3; programs 1 to 3, chapter 5).
 
     :func:`hull1620.convex_hull` describes the parameters. ``epsilon`` is the tolerance e of the thesis's chapter 7 (p.
-    117): the value of an equation at an input point counts as zero from -e to +e, where ``"rel:E"`` is E times the
+    117): the value of an equation at an input point counts as zero from -e to +e. For ``"rel:E"``, e is E times the
     equation's largest coefficient A, B or C. ``translate`` moves the origin to C, so that constant terms decide how
     equations are oriented (p. 118). ``text`` follows chapter 3 in two steps in which the listing differs: the choice of
     the fourth point (p. 29), and the order in which the planes that a point is outside of are replaced (p. 32). The
@@ -149,7 +149,7 @@ class _Run:
         return replace(
             result,
             vertices=points.input_indices(np.flatnonzero(vertex)),
-            faces=Faces(numbers, points).polyhedral(table, on, vertex),
+            faces=polyhedral_faces(points, table, on, vertex),
         )
 
     def coplanar(self, points: PointTable, opening: Opening) -> Hull:
@@ -177,7 +177,7 @@ class _Run:
         return replace(
             self.finished("program2 191"),
             vertices=corners.input_indices(np.flatnonzero(vertex)),
-            faces=Faces(numbers, flat).edges(table, ends, on, projected_axis),
+            faces=polygon_edges(flat, table, ends, on, projected_axis),
         )
 
     def triangle(self, polygon: Polygon, projected_axis: int) -> Hull:
@@ -187,7 +187,7 @@ class _Run:
         return replace(
             self.finished("program1 131"),
             vertices=points.input_indices(slice(None)),
-            faces=Faces(self.arithmetic, points).edges(table, table.defining, on, projected_axis),
+            faces=polygon_edges(points, table, table.defining, on, projected_axis),
         )
 
     def finished(self, label: str) -> Hull:
@@ -202,7 +202,7 @@ class _Run:
         )
 
     def move(self, points: PointTable, centre: tuple[Scalar, ...]) -> tuple[Scalar, ...] | None:
-        """Move the origin to the inner point C if ``translate`` is set.
+        """Move the origin to the inside point C if ``translate`` is set.
 
         Return the point from whose side equations are oriented, or None if that is now the origin.
         """

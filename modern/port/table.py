@@ -83,7 +83,7 @@ class Slack:
 
 
 def snapped(arithmetic: Arithmetic, values: Vector, slack: Vector | None) -> Vector:
-    """Return the values, with those inside the tolerance ``slack`` replaced by zero."""
+    """Return the values, but zero for each value from -slack to +slack."""
     if slack is None:
         return values
     return np.where(arithmetic.within(values, slack), arithmetic.filled([arithmetic.number(0)])[0], values)
@@ -94,8 +94,8 @@ class Equations:
     """The equations of planes or lines, one in each column, in the order of the procedure.
 
     ``coefficients`` has the rows A, B, C (for lines A, B) and the constant term. ``defining`` has the points that
-    define each equation, called MM, NN and KK in the listing. ``serial`` has a number for each equation, which never
-    changes.
+    define each equation, called MM, NN and KK in the listing. ``serial`` has the serial number of each equation, which
+    never changes, and ``made`` is the number of equations made so far.
     """
 
     arithmetic: Arithmetic
@@ -189,9 +189,9 @@ class Equations:
 def turned(
     arithmetic: Arithmetic, coefficients: Vector, centre: tuple[Scalar, ...] | None
 ) -> tuple[Vector, NDArray[np.bool_]]:
-    """Change the sign of equations that are positive at the inner point C; return them and a mask of those that are
-    zero.
+    """Return the equations, with the sign of those changed that are positive at the inside point C.
 
+    Also return a mask of the equations that are zero at C.
     ``centre`` is None if the origin was moved to C, so that the constant term is the value at C (thesis p. 118).
     """
     values = coefficients[-1] if centre is None else at(tuple(coefficients), centre)

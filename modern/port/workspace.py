@@ -10,17 +10,19 @@ from numpy.typing import NDArray
 
 # Indices of the state vector.
 #
-# COUNT: points that remain. VERTICES: vertices among them. CHECK: the slot to check. CHECKED: the equations before it.
-# MADE: slots used. ALIVE: planes in them. TRIED: slots in use when the points were last tested. STRUCK: whether that
-# test eliminated a point. GONE: points eliminated so far. STAGES: stages so far. ADDED: the point added by the last
-# stage. OUTSIDE: the number of equations it lay outside of. KNOWN: the corrections recorded so far, a bit for each.
+# COUNT: the number of points that remain. VERTICES: the number of vertices among them. CHECK: the slot to check.
+# CHECKED: the number of equations before that slot. MADE: the number of slots used. ALIVE: the number of planes in
+# these slots. TRIED: the number of slots used when the points were last tested. STRUCK: whether that test eliminated a
+# point. GONE: the number of points eliminated so far. STAGES: the number of stages so far. ADDED: the point added by
+# the last stage. OUTSIDE: the number of equations that this point lay outside of. KNOWN: the corrections recorded so
+# far, one bit for each.
 COUNT, VERTICES, CHECK, CHECKED, MADE, ALIVE, TRIED, STRUCK, GONE, STAGES, ADDED, OUTSIDE, KNOWN = range(13)
 STATE_SIZE = 13
 
 # Bits for corrections.
 #
-# THROUGH: a plane passes through C. TABLE: there are more planes than the listing's table holds. PAIR: the last pair of
-# equal planes was deleted.
+# THROUGH: a plane contains the inside point C. TABLE: there are more planes than the listing's table holds. PAIR: the
+# last pair of equal planes was deleted.
 THROUGH, TABLE, PAIR = 1, 2, 4
 
 
@@ -49,8 +51,8 @@ class Slots(NamedTuple):
 class Scratch(NamedTuple):
     """Temporary arrays that are allocated once, because numba compiles functions faster if they allocate nothing.
 
-    ``order`` and ``values`` hold slots of planes and their values at a point. The others are used in
-    :func:`modern.port.kernels.doubles`.
+    ``order`` and ``values`` hold slots of planes and the values of these planes at a point. The other arrays are used
+    in :func:`modern.port.kernels.doubles`.
     """
 
     order: NDArray[np.int64]
@@ -79,7 +81,12 @@ def scratch_for(slots: int, number: Any) -> Scratch:
 
 
 class Rules(NamedTuple):
-    """The constants of a run: the inner point C, the tolerance e (or -1), and limits for the number of planes."""
+    """The constants of a run: the inside point C, the tolerance e, and limits for the number of planes.
+
+    ``moved`` is True if the origin was moved to C.  ``size`` is e, or -1 for none; if ``relative`` is True, it is
+    multiplied by an equation's largest coefficient.  ``listed`` and ``capacity`` are the numbers of planes for which
+    the tables of the listing and of the port have room.
+    """
 
     centre: NDArray[Any]
     moved: bool
@@ -90,17 +97,17 @@ class Rules(NamedTuple):
 
 
 def is_outside(value: Any, e: Any) -> bool:
-    """Return True if a plane's value at a point shows that the point is outside.  From -e to +e it counts as zero."""
+    """Return True if a plane's value at a point is positive.  A value from -e to +e counts as zero."""
     return value > 0 and value > e  # type: ignore[no-any-return]
 
 
 def is_not_inside(value: Any, e: Any) -> bool:
-    """Return True if a plane's value at a point shows that it is outside or on the plane, to within e."""
+    """Return True if a plane's value at a point is positive or counts as zero."""
     return value >= 0 or value >= -e  # type: ignore[no-any-return]
 
 
 def is_on(value: Any, e: Any) -> bool:
-    """Return True if a plane's value at a point shows that it is on the plane, to within e."""
+    """Return True if a plane's value at a point counts as zero."""
     return value == 0 or abs(value) <= e  # type: ignore[no-any-return]
 
 

@@ -154,4 +154,4 @@ CHANGES = [
 def test_vectors_detect_every_changed_rule(name: str, rule: str, value: int) -> None:
     rules = profile(name).rules
     assert getattr(rules, rule) != value
-    assert differs(Profile(name, "changed", rules._replace(**{rule: value})))
+    assert differs(Profile(name, rules._replace(**{rule: value})))
