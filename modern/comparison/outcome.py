@@ -55,13 +55,6 @@ class Outcome:
         return self.status == DETERMINED
 
 
-def places(points: Sequence[Vector]) -> dict[Vector, int]:
-    first: dict[Vector, int] = {}
-    for index, point in enumerate(points):
-        first.setdefault(tuple(point), index)
-    return first
-
-
 def from_cards(name: str, run: HullRun, points: Sequence[Vector]) -> Outcome:
     if run.typed_refusal:
         return Outcome(name, run.typed_refusal, -1)
@@ -74,7 +67,8 @@ def from_cards(name: str, run: HullRun, points: Sequence[Vector]) -> Outcome:
 
 def from_card_hull(name: str, program: str, hull: CardHull, points: Sequence[Vector]) -> Outcome:
     """Convert a hull that the built-in ``program`` punched on cards to the form for comparisons."""
-    indices = places(points)
+    # The points are visited in reverse order, so that of several equal points the first one remains.
+    indices = {tuple(point): index for index, point in reversed(list(enumerate(points)))}
     sets, strange = [], 0
     for group in (hull.vertices, hull.boundary, hull.inside):
         known = [indices[point] for point in group if point in indices]
@@ -89,35 +83,22 @@ def from_card_hull(name: str, program: str, hull: CardHull, points: Sequence[Vec
 
 
 def from_hull(name: str, hull: Hull) -> Outcome:
-    equations = tuple(_four([Fraction(c) for c in face.coefficients]) for face in hull.faces)
-    return Outcome(
-        name,
-        hull.status,
-        hull.dimension,
-        frozenset(hull.vertices),
-        frozenset(hull.boundary),
-        frozenset(hull.inside),
-        equations if hull.dimension >= 2 else (),
-    )
+    vertices, boundary, inside = map(frozenset, (hull.vertices, hull.boundary, hull.inside))
+    faces = hull.faces if hull.dimension >= 2 else ()
+    equations = tuple(_four([Fraction(c) for c in face.coefficients]) for face in faces)
+    return Outcome(name, hull.status, hull.dimension, vertices, boundary, inside, equations)
 
 
 def from_judge(hull: ExactHull, points: Sequence[Vector]) -> Outcome:
-    """Convert an exact hull to the form for comparisons.  A polygon's edges become lines in the projected plane."""
+    """Convert an exact hull to the form for comparisons.  The edges of a polygon become projected lines."""
     if hull.dimension == 3:
         equations = [_four([Fraction(c) for c in hull.plane_of(facet)]) for facet in hull.facets]
     elif hull.dimension == 2:
         equations = _lines(hull, points)
     else:
         equations = []
-    return Outcome(
-        "judge",
-        DETERMINED,
-        hull.dimension,
-        frozenset(hull.vertices),
-        frozenset(hull.boundary),
-        frozenset(hull.inside),
-        tuple(equations),
-    )
+    vertices, boundary, inside = map(frozenset, (hull.vertices, hull.boundary, hull.inside))
+    return Outcome("judge", DETERMINED, hull.dimension, vertices, boundary, inside, tuple(equations))
 
 
 def as_hull(judged: ExactHull) -> Hull:

@@ -87,13 +87,6 @@ class Sampling:
 
 
 @dataclass
-class _Tally:
-    estimates: list[tuple[float, float]] = field(default_factory=list)
-    inexact: int = 0
-    zeros: int = 0
-
-
-@dataclass
 class _Votes:
     times: int = 0
     disputed: int = 0
@@ -134,7 +127,7 @@ def in_step(
     written: list[tuple[int, str, Values]] = []
     sampled = replace(numbers, on_write=lambda columns, values: written.append((run.record, columns, values)))
     run = JournaledRun(program, deck, replace(options or Options(), numbers=sampled), True, operator(), ())
-    tallies: dict[int, _Tally] = {}
+    estimates: dict[int, list[Estimate]] = {}
     votes: dict[int, _Votes] = {}
     for pc, _, value in run.entries():
         if not isinstance(value, tuple):
@@ -143,10 +136,7 @@ def in_step(
             branch = program.branches[program.code[pc].address]
             _vote(votes.setdefault(pc, _Votes()), numbers.signs(value), branch, numbers.sign(value))
         elif (estimated := numbers.estimate(value)) is not None:
-            tally = tallies.setdefault(program.statement_numbers[pc], _Tally())
-            tally.estimates.append((estimated.parker, estimated.sohier))
-            tally.inexact += not estimated.is_exact
-            tally.zeros += estimated.is_zero and not estimated.is_exact
+            estimates.setdefault(program.statement_numbers[pc], []).append(estimated)
     if run.error is not None:
         raise run.error
     printed = [
@@ -154,7 +144,7 @@ def in_step(
         for record, columns, values in written
     ]
     lines = program.statements
-    statements = [_statement(lines[number], tally) for number, tally in tallies.items()]
+    statements = [_statement(lines[number], estimated) for number, estimated in estimates.items()]
     decisions = [_decision(program.line_at(pc), vote) for pc, vote in votes.items()]
     return Sampling(
         numbers=numbers,
@@ -179,10 +169,11 @@ def _vote(votes: _Votes, signs: Sequence[int], branch: Sequence[int], taken: int
             votes.time, votes.signs, votes.taken = votes.times, Counter(signs), taken
 
 
-def _statement(line: Line, tally: _Tally) -> StatementDigits:
-    parker = [digits for digits, _ in tally.estimates]
-    sure = min(digits for _, digits in tally.estimates)
-    return StatementDigits(line, len(parker), min(parker), median(parker), sure, tally.inexact, tally.zeros)
+def _statement(line: Line, estimates: Sequence[Estimate]) -> StatementDigits:
+    parker, sure = [each.parker for each in estimates], min(each.sohier for each in estimates)
+    inexact = [each for each in estimates if not each.is_exact]
+    zeros = sum(each.is_zero for each in inexact)
+    return StatementDigits(line, len(parker), min(parker), median(parker), sure, len(inexact), zeros)
 
 
 def _decision(line: Line, votes: _Votes) -> DecisionShares:

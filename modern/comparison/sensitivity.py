@@ -50,7 +50,7 @@ def shape_of(texts: Sequence[str]) -> list[str]:
 
 
 def sensitivities(machine: Machine, result: Result, most: int = 200) -> tuple[list[Sensitivity], int]:
-    """Return the sensitivity to each of the first ``most`` floating-point numbers of a deck, and how many follow.
+    """Return the sensitivities to the first ``most`` floating-point numbers of a deck, and the number of the others.
 
     ``machine`` has run the program on the deck in the reference arithmetic, with this result.
     """

@@ -24,7 +24,7 @@ from modern.digital.scans import Choice, Scan, chosen
 from modern.digital.solids import DIGITS, VERTEX, VOXEL, Volume, VolumeError, ball, half_ball, listed
 from modern.digital.world import world_of
 from modern.formats.csv import rows
-from modern.formats.meshes import surface_kind
+from modern.formats.points import surface_kind
 from modern.geometry.numbers import real
 
 # The file name extensions of arrays that can be written.

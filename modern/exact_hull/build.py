@@ -12,15 +12,7 @@ import numpy as np
 from emulator.jit.functions import require_numba
 from modern.exact_hull.certificate import certify
 from modern.exact_hull.coordinates import Coordinates, Ints, read_points
-from modern.exact_hull.facets import (
-    faces,
-    independent,
-    merged,
-    planes_of,
-    polygon,
-    segment,
-    value,
-)
+from modern.exact_hull.facets import faces, independent, merged, planes_of, polygon, segment, value
 from modern.exact_hull.planes import facet_planes
 from modern.exact_hull.proposal import propose
 from modern.exact_hull.result import CertificateError, ExactHull, Facet, Facets, Plane
@@ -35,7 +27,7 @@ _FEW = 64
 
 
 def insertion_order(count: int, simplex: Sequence[int]) -> list[int]:
-    """Return all points except those of the first simplex in a shuffled order that is always the same."""
+    """Return the indices of all points except those of ``simplex``, in a shuffled order that is always the same."""
     used = set(simplex)
     order = [index for index in range(count) if index not in used]
     random.Random(SEED).shuffle(order)
@@ -90,14 +82,8 @@ def _proposed(points: Coordinates, basis: Sequence[int], fast: bool | None) -> t
 def exact_hull(points: Points, fast: bool | None = None) -> ExactHull:
     """Return the exact convex hull of at least one point, with every point classified and the result proved.
 
-    points: three coordinates for each point, or an array of shape (n, 3).  A coordinate is an int, a Fraction, a
-    Decimal, a decimal string such as ``"-.25E-3"``, a fraction ``"p/q"``, or a float, also of numpy, which has the
-    binary value that it stores.
-    fast: True to propose a hull with a compiled kernel (numba, the extra ``fast``), False to do it without.  None uses
-    the kernel if it is already loaded or there are very many points.  The result is the same.
-
-    For many points in space a hull is first proposed in rounded numbers.  If its proof fails, the hull is constructed
-    exactly.
+    :func:`hull1620.exact_hull` describes the parameters.  For many points in space a hull is first proposed in rounded
+    numbers.  If its proof fails, the hull is constructed exactly.
 
     Raise PointsError for invalid points, NotInstalled if ``fast`` is true and numba is missing, and CertificateError if
     the proof of the constructed hull fails.

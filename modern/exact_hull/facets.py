@@ -56,7 +56,7 @@ def lowest_terms(plane: Plane) -> Plane:
 
 
 def independent(points: Sequence[IntPoint]) -> tuple[int, ...]:
-    """Return the indices of affinely independent points: one for a point, two for a segment, up to four."""
+    """Return the indices of affinely independent points: four if the points span space, fewer if they do not."""
     if len(points) == 1:
         return (0,)
     origin = points[0]
@@ -76,7 +76,7 @@ def independent(points: Sequence[IntPoint]) -> tuple[int, ...]:
 
 
 def rotated(polygon: Sequence[int]) -> tuple[int, ...]:
-    """Return a cycle beginning with its smallest member, in the same cyclic order."""
+    """Return a cycle, rotated so that its smallest member comes first."""
     start = polygon.index(min(polygon))
     return (*polygon[start:], *polygon[:start])
 
@@ -188,9 +188,8 @@ def positive(plane: Plane) -> Plane:
 def polygon(points: Sequence[IntPoint], three: Sequence[int]) -> tuple[Plane, tuple[int, ...], list[Facet]]:
     """Return the hull of coplanar points: its plane, its vertices in cyclic order, and its edges as facets.
 
-    ``three`` holds the indices of three points that are not collinear.
-
-    Monotone chains (Andrew, Information Processing Letters 9 (1979), 216-219) are applied to two coordinates.
+    ``three`` holds the indices of three points that are not collinear.  The algorithm of monotone chains (Andrew,
+    Information Processing Letters 9 (1979), 216-219) is applied to two of the coordinates.
     """
     plane = positive(plane_through(points[three[0]], points[three[1]], points[three[2]]))
     normal = plane[:3]

@@ -174,7 +174,7 @@ def difference(x: float, y: float, part: int) -> float:
 
 
 def orientation(terms: Any, places: Any, corners: Any, slot: int, p: int) -> float:
-    """Return a number with the exact sign of the determinant that tells on which side of a triangle ``p`` is."""
+    """Return a number with the exact sign of the determinant that shows on which side of a triangle ``p`` is."""
     a, b, c = corners[slot, 0], corners[slot, 1], corners[slot, 2]
     count = 0
     for i, j, k, sign in _PRODUCTS:
@@ -195,7 +195,7 @@ def orientation(terms: Any, places: Any, corners: Any, slot: int, p: int) -> flo
 
 
 def value(known: Any, slot: int, p: int) -> float:
-    """Return the value of a triangle's plane at a point.  It is rounded, but its sign is exact."""
+    """Return the value of a triangle's plane at a point.  The value is rounded, but its sign is exact."""
     places, normals, a = known.places, known.normals, known.corners[slot, 0]
     approximate = (
         normals[slot, 0] * (places[p, 0] - places[a, 0])

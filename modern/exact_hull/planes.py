@@ -210,7 +210,7 @@ class Planes:
         self.evaluations += len(indices) * count
 
     def largest(self, indices: Ints) -> tuple[Ints, Ints]:
-        """Return, for each point, a facet whose plane has the greatest sign at it, and this sign (1 is outside)."""
+        """Return, for each point, a facet whose plane has the greatest sign there, and this sign (1 for outside)."""
         facets, largest = np.zeros(len(indices), np.int64), np.full(len(indices), -1)
         for rows, columns, signs in self.near(indices):
             np.maximum.at(largest, rows, signs)

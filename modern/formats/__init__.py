@@ -19,7 +19,7 @@ How to add a format from which points are read:
    the format.
 
 How to add a format from which faces are read (for ``hidden-line`` and its scenes): add it to points as above, write a
-function that returns a ``FileMesh`` (``tokens.py``), and extend ``parse_mesh`` in ``meshes.py``.
+function that returns a ``FileMesh`` (``tokens.py``), and extend ``parse_mesh`` in ``points.py``.
 
 A format of voxels belongs to ``modern/digital/volumes.py`` (``nrrd.py`` there is an example).
 

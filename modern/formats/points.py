@@ -1,5 +1,7 @@
 """Read points from files of every supported format: decks, CSV lists, OFF, OBJ, PLY, STL, JSON and NPY.
 
+Surfaces, points with faces, are read from OFF, OBJ, PLY and STL.
+
 Numbers are exact: a decimal has the value of its text, a binary float the value that it stores.  All digits of a field
 on a card are read, whereas the programs would drop those after the eighth digit.  The format of a file is recognised by
 its first bytes or its first line, and by the extension of its name only if these fit several formats.
@@ -12,9 +14,10 @@ from dataclasses import dataclass
 from emulator.errors import FileError, quoted
 from emulator.files import POINTS_LIMIT, decoded, read_bytes, source_name
 from emulator.language.cards import deck_from_text
-from modern.formats import POINTS, csv, json, obj, ply, stl
+from modern.formats import MESHES, POINTS, csv, json, obj, ply, stl
 from modern.formats.deck import exact_points
 from modern.formats.off import parse_off
+from modern.formats.tokens import FileMesh
 from modern.geometry.hull import PointTexts
 from modern.geometry.numbers import Point, decimal, float_text, integer_text, real
 
@@ -68,6 +71,32 @@ def parse_input(text: str, source: str) -> Input:
         return _input(source, kind, points, range(1, len(points) + 1), "point")
     reader = {"csv": csv.points, "obj": obj.parse, "stl": stl.parse}[kind]
     return _input(source, kind, *reader(text, source))
+
+
+def parse_mesh(data: bytes, source: str) -> FileMesh:
+    """Return the surface in a file, which may have no faces.  Raise FileError if it is not OFF, OBJ, PLY or STL.
+
+    The readers do not check that the faces close.  Equal corners of an STL file are one point; every vertex of OFF, OBJ
+    and PLY is a separate point.
+    """
+    kind = surface_kind(data, source)
+    if not kind:
+        raise FileError(f"{source}: expected faces in OFF, OBJ, PLY or STL; this file holds only points")
+    if kind == "ply":
+        return ply.surface(data, source)
+    if kind == "stl" and stl.is_binary(data):
+        return stl.surface_binary(data, source)
+    reader = {"off": parse_off, "obj": obj.surface, "stl": stl.surface}[kind]
+    return reader(decoded(data, source), source)
+
+
+def surface_kind(data: bytes, source: str) -> str:
+    """Return the format of a file if it is one of ``MESHES``, or "" if it is a format of points without faces.
+
+    Raise FileError if the format is unknown.
+    """
+    kind = kind_of(data, source)
+    return kind if kind in MESHES else ""
 
 
 def kind_of(data: bytes, source: str) -> str:

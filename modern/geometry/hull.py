@@ -44,6 +44,9 @@ class LazyTuple(Sequence[T]):
     def __getitem__(self, index: slice) -> tuple[T, ...]: ...
 
     def __getitem__(self, index: SupportsIndex | slice) -> T | tuple[T, ...]:
+        return self._at(index)
+
+    def _at(self, index: SupportsIndex | slice) -> T | tuple[T, ...]:
         return self.all()[index]
 
     def __iter__(self) -> Iterator[T]:
@@ -69,13 +72,7 @@ class LazyMembers(LazyTuple[T]):
         super().__init__(count, lambda: map(member, range(count)))
         self._member = member
 
-    @overload
-    def __getitem__(self, index: SupportsIndex) -> T: ...
-
-    @overload
-    def __getitem__(self, index: slice) -> tuple[T, ...]: ...
-
-    def __getitem__(self, index: SupportsIndex | slice) -> T | tuple[T, ...]:
+    def _at(self, index: SupportsIndex | slice) -> T | tuple[T, ...]:
         if self._make is None:
             return self._made[index]
         if isinstance(index, slice):
@@ -119,19 +116,12 @@ def as_tuple(members: Sequence[T]) -> tuple[T, ...]:
 class Face:
     """A supporting plane A x + B y + C z + D = 0, or a supporting line of a polygon, positive outside.
 
-    Attributes
-    ----------
-    coefficients
-        A, B, C, D as the thesis computes them: sums of products of coordinates of the defining points.  For a line the
-        coefficient of the coordinate that the projection drops is 0 (thesis p. 16-17).
-    lowest
-        The same equation as integers without a common divisor.
-    defining
-        The points MM, NN, KK (for a line MM, NN) through which the equation was computed.
-    polygon
-        The vertices on the plane in cyclic order, counterclockwise seen from outside.  A line has two vertices.
-    on
-        All other input points that lie on the plane or line.
+    coefficients: A, B, C, D as the thesis computes them, as sums of products of coordinates of the defining points.
+        For a line the coefficient of the coordinate that the projection drops is 0 (thesis p. 16-17).
+    lowest: the same equation as integers without a common divisor.
+    defining: the points MM, NN, KK (for a line MM, NN) from which the equation was computed.
+    polygon: the vertices on the plane in cyclic order, counterclockwise seen from outside.  A line has two vertices.
+    on: all other input points that lie on the plane or line.
     """
 
     coefficients: Coefficients
@@ -198,7 +188,7 @@ class Hull:
         so duplicates are reported and otherwise ignored.
     plane: the plane of a polygon, as punched.
     lines: two equations for the line of a segment, or for each of the three sides of a triangle of three points.
-    centre: the inner point C, for a polyhedron.
+    centre: the inside point C, for a polyhedron.
     statement: the program and statement number in Butler's listing at which the status was decided.
     corrected: identifiers of the modern corrections that changed a branch of the listing.
     history: the approximations H_j, if the caller requested them.

@@ -30,7 +30,7 @@ _SAFE_BITS = 10_000
 
 
 class PointsError(ArgumentError):
-    """Raised for an invalid point, or one that an arithmetic cannot hold.  The message counts points from 0."""
+    """Raised for an invalid point, or a point that an arithmetic cannot hold.  The message counts points from 0."""
 
 
 def split_decimal(text: str) -> tuple[bool, str, str, int]:
@@ -137,7 +137,7 @@ def coordinates(point: Sequence[str]) -> tuple[Fraction, Fraction, Fraction]:
 
 
 def integer_text(value: int) -> str:
-    """Return all digits of an integer of any length (``str`` refuses more than 4300)."""
+    """Return all digits of an integer of any length, whereas ``str`` rejects more than 4300 digits."""
     return str(value) if value.bit_length() < _SAFE_BITS else str(Decimal(value))
 
 

@@ -60,7 +60,7 @@ def point_rows(points: Any) -> Iterator[list[Any]]:
 def converted(points: Points, convert: Callable[[object], T]) -> list[tuple[T, T, T]]:
     """Return the points with every coordinate converted by ``convert``.
 
-    Raise PointsError, which names the coordinate, if ``convert`` raises ValueError, or if the points are not points.
+    Raise PointsError if a point does not have three coordinates, or if ``convert`` raises ValueError.
     """
     rows = []
     for index, row in enumerate(point_rows(points)):

@@ -56,6 +56,26 @@ def _reduced(numbers: Sequence[int | Fraction]) -> list[int]:
     return [multiple // divisor for multiple in multiples]
 
 
+def independent(points: Sequence[tuple[N, N, N]]) -> list[int]:
+    """Return the indices of the first four distinct points that are not coplanar, or of fewer if all are coplanar.
+
+    The first two points must be distinct. The number of indices is the dimension of the set of points plus 1.
+    """
+    simplex: list[int] = [0]
+    normal = minus(points[0], points[0])
+    for number in range(1, len(points)):
+        arm = minus(points[number], points[0])
+        if len(simplex) == 1:
+            simplex.append(number)
+        elif len(simplex) == 2:
+            normal = cross(minus(points[simplex[1]], points[0]), arm)
+            if any(normal):
+                simplex.append(number)
+        elif dot(normal, arm):
+            return [*simplex, number]
+    return simplex
+
+
 def area_vector(points: Sequence[tuple[N, N, N]], face: Sequence[int]) -> tuple[N, N, N]:
     """Return the normal of a polygon, with a length of twice the polygon's area.
 

@@ -12,23 +12,21 @@ from emulator.language.objectcode import Program
 from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
 from emulator.objectdeck.extent import code_positions
 
-# The array lengths that occur in the hull programs, for 51 points, each with its formula in the number of points.
-_SIZES: dict[int, Callable[[int], int]] = {
-    51: lambda n: n,
-    52: lambda n: n + 1,
-    98: lambda n: max(2 * n - 4, 4),
-    193: lambda n: max(4 * n - 11, 5),
+# The array lengths that occur in the hull programs, for 51 points, each with its formula in the number of points N.
+_SIZES: dict[int, tuple[str, Callable[[int], int]]] = {
+    51: ("N", lambda n: n),
+    52: ("N+1", lambda n: n + 1),
+    98: ("2N-4", lambda n: max(2 * n - 4, 4)),
+    193: ("4N-11", lambda n: max(4 * n - 11, 5)),
 }
-_FORMULAS = {51: "N", 52: "N+1", 98: "2N-4", 193: "4N-11"}
 
 
 def data_positions(program: Program, points: int) -> int:
     """Return the number of core positions for a program's data if its arrays have room for this number of points."""
     fields = program.storage.fields
     for entry in program.storage.arrays():
-        size = _SIZES.get(entry.size)
-        if size is not None:
-            fields += size(points) - entry.size
+        if entry.size in _SIZES:
+            fields += _SIZES[entry.size][1](points) - entry.size
     return fields * FIELD
 
 
@@ -46,4 +44,4 @@ def largest(program: Program, core: int) -> int:
 def array_lengths(program: Program) -> tuple[str, ...]:
     """Return the lengths of a program's arrays as formulas in N, the number of points."""
     lengths = {entry.size for entry in program.storage.arrays()}
-    return tuple(_FORMULAS[length] for length in sorted(lengths & _FORMULAS.keys()))
+    return tuple(_SIZES[length][0] for length in sorted(lengths & _SIZES.keys()))

@@ -1,4 +1,4 @@
-"""Read the cards that the hull programs punch, and compare results regardless of order and scale.
+"""Read the cards that the hull programs punch, and compare hulls regardless of order and scale.
 
 Program 1, which runs first, punches an intermediate deck.  Program 2 or 3 reads it and punches the hull.  The cards
 follow the FORMATs of the three programs (thesis p. 73-74, 87, 102).  Numbers are exact.

@@ -6,6 +6,7 @@ The commands ``hull`` and ``diff`` and the page of the site on points of the rea
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cache
 
 from emulator.language.cards import deck_from_lines
 from emulator.machine.comparison import Decision
@@ -14,48 +15,16 @@ from emulator.machine.machine import Machine
 from emulator.machine.result import Options, Uncut
 from emulator.numbers import numbers
 from modern.thesis.job import HullRun
-from modern.thesis.refusals import CORRECTED, Cause, Kind
+from modern.thesis.refusals import CORRECTED, Cause
 
-_MEANINGS: dict[Kind, str] = {
-    "miss": "this point defines equation {equation}, but its value there is {value} instead of 0, because {digits} do "
-    "not hold the products of its coordinates",
-    "centre": "calculated with {digits}, equation {equation} passes through the inside point C, so neither of its "
-    "sides is the outer one",
-    "zeros": "all coefficients of equation {equation} are zero, because its three points appear to lie on one line if "
-    "calculated with {digits}",
-    "pair": "the search for pairs of equations inside the hull ran beyond the end of the table of equations",
-    "repeat": "the search for repeated equations of one plane ran beyond the end of the table of equations",
-    "unmet": "no point satisfies three equations exactly, so none counts as a vertex; {digits} do not hold the "
-    "equations",
-    "room": "the table of equations is full",
-    "endless": "the run reached the statement limit; a higher --limit helps only if the run would end",
-    "stopped": "the run met a value or an address with which it could not continue",
-    "other": "the program reached a state that it treats as impossible",
-}
-_DETAILS: dict[Kind, str] = {
-    "miss": "The programs trust an equation only if the points that define it satisfy it to the last digit. The "
-    "coefficients A, B, C of a plane are sums of products of two coordinates, and D of three. With {digits} they are "
-    "always exact if the coordinates are integers up to 99, and often inexact if they have three digits or more. The "
-    "hull may be correct, but the programs cannot confirm it. Chapter 7 of the thesis proposes a tolerance e below "
-    "which a value counts as zero: layer epsilon.",
-    "centre": "The programs orient every plane so that C, the mean of the first four vertices, lies on its inner side. "
-    "Some planes that will be deleted a moment later contain C, and the program then types ERROR IN PROGRAM although "
-    "nothing is wrong.",
-    "zeros": "In exact arithmetic a new point is never collinear with two vertices of a plane that it lies outside of. "
-    "The truncation of digits made these three points appear collinear.",
-    "pair": "If the two deleted planes are the last of the table, the program compares entries beyond its end.",
-    "repeat": "If the deleted plane is the last of the table, the program compares entries beyond its end.",
-    "unmet": "The equations of the hull were found. At the end the programs count, for every point, the equations "
-    "that it satisfies to the last digit; a vertex satisfies at least three. No point satisfies equations with "
-    "truncated coefficients.",
-    "room": "Planes are added three at a time before those inside the hull are deleted, so the table temporarily holds "
-    "more planes than the hull has faces. The real machine would have overwritten the next array (--bounds core).",
-    "endless": "A search that ran beyond the end of the table never ends. The same happens if rounded values decide a "
-    "branch differently each time.",
-    "stopped": "The program used a number that was never assigned, an element outside an array, or a value that the "
-    "arithmetic cannot compare.",
-    "other": "A sum, a difference or a count has a value that is impossible in exact arithmetic.",
-}
+
+@cache
+def _texts() -> dict[str, dict[str, str]]:
+    import tomllib  # not at the top, because only explanations need them
+    from importlib.resources import files
+
+    source = files("modern.thesis").joinpath("explanations.toml").read_text(encoding="utf-8")
+    return tomllib.loads(source)
 
 
 def digits_of(arithmetic: str) -> str:
@@ -71,7 +40,8 @@ def explanation(cause: Cause, arithmetic: str = "truncating") -> tuple[str, str,
         label = f"{cause.decision.label} " if cause.decision.label else ""
         point = f" for the point {', '.join(cause.point)}" if cause.point else ""
         decision += f", decided by card {cause.decision.place.card}, {label}{cause.decision.text}{point}"
-    meaning, details = (table[cause.kind].format(**values) for table in (_MEANINGS, _DETAILS))
+    texts = _texts()[cause.kind]
+    meaning, details = texts["meaning"].format(**values), texts["details"].format(**values)
     if cause.fault:
         row = CORRECTED.get(cause.fault)
         correction = f"; row {row} of layer corrected corrects it" if row else ""

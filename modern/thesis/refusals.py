@@ -19,7 +19,7 @@ from modern.thesis.job import REFUSALS, HullRun, Step, Watch, refusal
 # The kinds of causes why a program found no hull.
 #
 # - miss: a point that defines an equation does not satisfy it in the digits of the machine.
-# - centre: in these digits a plane or line passes through the inner point C.  zeros: its coefficients are all zero.
+# - centre: in these digits a plane or line passes through the inside point C.  zeros: its coefficients are all zero.
 # - pair: the search for pairs of planes inside the hull ran beyond the table.
 # - repeat: the search for repeated planes ran beyond the table.
 # - unmet: no point satisfies three equations, so that no point becomes a vertex.

@@ -12,8 +12,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 
-from modern.formats.meshes import parse_mesh, surface_kind
-from modern.formats.points import parse_bytes
+from modern.formats.points import parse_bytes, parse_mesh, surface_kind
 from modern.formats.tokens import FileMesh
 from modern.geometry.coplanar import FLAT, CoplanarError, Joined, join, join_summary, root_text
 from modern.geometry.hull import Hull

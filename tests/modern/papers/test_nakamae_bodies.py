@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from emulator.errors import EmulatorError, FileError
 from modern.exact_hull import exact_hull
 from modern.formats.export import export_text
-from modern.formats.meshes import parse_mesh
+from modern.formats.points import parse_mesh
 from modern.formats.tokens import FileMesh
 from modern.geometry.coplanar import CoplanarError
 from modern.papers.nakamae_nishita.bodies import Bodies, Reading, bodies, read_bodies
