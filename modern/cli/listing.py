@@ -7,7 +7,6 @@ import argparse
 import shutil
 import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from textwrap import wrap
 
 from emulator.errors import DeckError, Diagnostic
@@ -31,21 +30,6 @@ from modern.edition import programs
 from modern.publication.commentary import commentary
 
 _NARROWEST = 40
-
-
-@dataclass(frozen=True)
-class _Row:
-    """The statistics of the statement that begins on a card.
-
-    count: the number of times that it ran.  percent: its share of the processor time.  lost_digits: the greatest number
-    of digits that one of its values lost, or None if no value was compared.  significant: the least number of digits
-    that stochastic runs estimate for its values, or None.
-    """
-
-    count: int
-    percent: float
-    lost_digits: float | None
-    significant: float | None
 
 
 def main(args: argparse.Namespace) -> int:
@@ -139,21 +123,28 @@ def _width(path: str) -> int | None:
 
 def _plain(source: Deck, messages: Sequence[Diagnostic], notes_above: Mapping[int, Sequence[str]]) -> Iterator[str]:
     yield f"{source.source}: {len(source.cards)} cards"
-    for card in source.cards:
-        yield from notes_above.get(card.number, ())
-        yield f"{card.number:5d}  {card.text}"
-        yield from _messages_below(messages, card.number, " " * 7)
+    yield from _cards(source, messages, notes_above, {}, 0)
     for message in messages:
         if not 1 <= message.card <= len(source.cards):
             yield message.line(source.source)
 
 
-def _messages_below(messages: Sequence[Diagnostic], card: int, lead: str) -> Iterator[str]:
-    """Yield the compiler's messages for a card, each with a caret below its column."""
-    for message in messages:
-        if message.card == card:
-            kind = "warning" if message.warning else "error"
-            yield f"{lead}{' ' * (message.column - 1) + '^ ' if message.column else ''}{kind}: {message.message}"
+def _cards(
+    source: Deck,
+    messages: Sequence[Diagnostic],
+    notes_above: Mapping[int, Sequence[str]],
+    statistics: Mapping[int, str],
+    width: int,
+) -> Iterator[str]:
+    """Yield the cards with their statistics, ``width`` columns wide, and the compiler's messages with carets."""
+    for card in source.cards:
+        yield from notes_above.get(card.number, ())
+        yield f"{card.number:5d}{statistics.get(card.number, ''):<{width}}  {card.text}"
+        for message in messages:
+            if message.card == card.number:
+                caret = " " * (message.column - 1) + "^ " if message.column else ""
+                kind = "warning" if message.warning else "error"
+                yield f"{'':<{width + 7}}{caret}{kind}: {message.message}"
 
 
 def _with_statistics(
@@ -165,25 +156,15 @@ def _with_statistics(
     sampling: Sampling | None,
     notes_above: Mapping[int, Sequence[str]],
 ) -> Iterator[str]:
-    timing = measure(program, result)
-    time = f"{timing.processor_time} of processor time on a 1620"
+    time = f"{measure(program, result).processor_time} of processor time on a 1620"
     yield f"{program.source}: {result.statements} statements in {time}"
     if divergence is not None:
         yield from _comparison(divergence)
-    rows = _rows(program, result, divergence, sampling)
     if sampling is not None:
         yield f"digits that {len(sampling.numbers.members)} stochastic runs have in common: {sampling.numbers.name}"
     yield " card    count  time%  lost" + (" digits" if sampling else "")
-    for card in source.cards:
-        yield from notes_above.get(card.number, ())
-        row = rows.get(card.number)
-        statistics = ""
-        if row is not None:
-            lost = "" if row.lost_digits is None else f"{row.lost_digits:.1f}"
-            statistics = f"{row.count:9d} {f'{row.percent:.1f}' if row.count else '':>6} {lost:>5}"
-            statistics += "" if row.significant is None else f" {row.significant:6.1f}"
-        yield f"{card.number:5d}{statistics:<{29 if sampling else 22}}  {card.text}"
-        yield from _messages_below(messages, card.number, " " * 29)
+    statistics = _statistics(program, result, divergence, sampling)
+    yield from _cards(source, messages, notes_above, statistics, 29 if sampling else 22)
 
 
 def _comparison(divergence: Divergence) -> Iterator[str]:
@@ -196,19 +177,24 @@ def _comparison(divergence: Divergence) -> Iterator[str]:
         yield f"comparison ended: {divergence.apart}"
 
 
-def _rows(
+def _statistics(
     program: Program, result: Result, divergence: Divergence | None, sampling: Sampling | None
-) -> dict[int, _Row]:
-    """Return the statistics of each statement by the number of its first card."""
+) -> dict[int, str]:
+    """Return the columns of figures of each statement as text, by the number of its first card.
+
+    The columns are the number of times that the statement ran, its share of the processor time, the greatest number of
+    digits that one of its values lost, and the least number of digits that stochastic runs estimate for its values.
+    """
     counts = dict(measure(program, result).statements)
     seconds = [time.seconds for time in shares(program, result)]
     total = sum(seconds) or 1.0
     losses = divergence.losses if divergence is not None and divergence.digits else ()
-    lost = {loss.line.index: loss.worst for loss in losses}
-    digits = {row.line.index: row.worst for row in sampling.statements} if sampling else {}
-    return {
-        line.place.card: _Row(
-            counts.get(line.index, 0), 100 * seconds[line.index] / total, lost.get(line.index), digits.get(line.index)
-        )
-        for line in program.statements
-    }
+    lost = {loss.line.index: f"{loss.worst:.1f}" for loss in losses}
+    digits = {row.line.index: f" {row.worst:6.1f}" for row in sampling.statements} if sampling else {}
+    columns = {}
+    for line in program.statements:
+        count, share = counts.get(line.index, 0), 100 * seconds[line.index] / total
+        percent = f"{share:.1f}" if count else ""
+        figures = f"{count:9d} {percent:>6} {lost.get(line.index, ''):>5}"
+        columns[line.place.card] = figures + digits.get(line.index, "")
+    return columns

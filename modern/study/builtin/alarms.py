@@ -8,7 +8,7 @@ sets of each family.
 
 import json
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, fields
 from functools import reduce
 from typing import Any
@@ -107,26 +107,15 @@ class _Group:
         is_wrong = bool(figures["first"])
         self.wrong, self.sound = self.wrong + is_wrong, self.sound + (not is_wrong)
         self.right_decisions += figures["tests"] - is_wrong
-        for name in METHODS:
-            alarms = figures[f"{name}_false"]
+        for name, alarms, spoils, caught, repaired in _by_method(figures):
             self.false[name] += alarms
             if is_wrong:
-                self.noticed[name] += figures[f"{name}_caught"]
-                self.repaired[name] += figures[f"{name}_repaired"]
-                self.warned[name] += bool(figures[f"{name}_caught"] or alarms)
+                self.noticed[name] += caught
+                self.repaired[name] += repaired
+                self.warned[name] += bool(caught or alarms)
             else:
                 self.alarmed[name] += alarms > 0
-                self.spoiled[name] += figures[f"{name}_spoils"] > 0
-        right = {int(k): int(n) for k, n in (pair.split(":") for pair in figures["e_right"].split())}
-        for k in POWERS:
-            alarms = sum(n for power, n in right.items() if power <= k)
-            caught = is_wrong and figures["e_first"] <= k
-            self.false[e_name(k)] += alarms
-            self.noticed[e_name(k)] += caught
-            self.repaired[e_name(k)] += caught and figures["e_repaired"]
-            self.warned[e_name(k)] += is_wrong and bool(caught or alarms)
-            self.alarmed[e_name(k)] += not is_wrong and alarms > 0
-            self.spoiled[e_name(k)] += not is_wrong and alarms > 0
+                self.spoiled[name] += spoils > 0
 
     def __add__(self, other: "_Group") -> "_Group":
         return _Group(*(getattr(self, part.name) + getattr(other, part.name) for part in fields(self)))
@@ -139,6 +128,22 @@ class _Group:
         """Return a count of a method as a share of the sound runs if it counts these, otherwise of the wrong runs."""
         of = self.sound if counter is self.alarmed or counter is self.spoiled else self.wrong
         return exact(counter[name], of) if of else None
+
+
+def _by_method(figures: Mapping[str, Any]) -> Iterator[tuple[str, int, int, int, int]]:
+    """Yield for each method and each e: its name, and its figures ``false``, ``spoils``, ``caught`` and ``repaired``.
+
+    :func:`modern.study.alarms.alarms` explains the figures.
+    """
+    for name in METHODS:
+        numbers = (figures.get(f"{name}_{figure}", 0) for figure in ("false", "spoils", "caught", "repaired"))
+        false, spoils, caught, repaired = numbers
+        yield name, false, spoils, caught, repaired
+    right = {int(k): int(n) for k, n in (pair.split(":") for pair in figures["e_right"].split())}
+    for k in POWERS:
+        alarms = sum(n for power, n in right.items() if power <= k)
+        caught = "e_first" in figures and figures["e_first"] <= k
+        yield e_name(k), alarms, alarms, caught, caught and figures["e_repaired"]
 
 
 @dataclass

@@ -16,6 +16,7 @@ To add a family:
 
 import inspect
 from collections.abc import Callable, Mapping
+from contextlib import nullcontext
 from random import Random
 
 from modern.formats.deck import coordinate_field
@@ -64,22 +65,21 @@ def draw_sample(cell: Cell, study: int, index: int) -> Drawn:
     """
     family = family_of(cell.family)
     draw = Draw(Random(int(cell.seed(study, index), 16)), index)
+    where = f"cell {cell.name}: family {cell.family}"
+    in_module = user_code(where, cell.family.partition(":")[0])
     try:
-        if cell.family in FAMILIES:
+        with nullcontext() if cell.family in FAMILIES else in_module:
             drawn = family(draw, **_keywords(cell.parameters))
-        else:
-            with user_code(f"cell {cell.name}: family {cell.family}", cell.family.partition(":")[0]):
-                drawn = family(draw, **_keywords(cell.parameters))
     except (TypeError, ValueError) as error:
-        raise PlanError(f"cell {cell.name}: family {cell.family}: {error}") from None
+        raise PlanError(f"{where}: {error}") from None
     except FamilyError as error:
-        raise FamilyError(f"cell {cell.name}: family {cell.family}: {error}") from None
+        raise FamilyError(f"{where}: {error}") from None
     if not isinstance(drawn, Drawn):
         raise PlanError(
-            f"cell {cell.name}: family {cell.family}: expected Drawn, found {type(drawn).__name__}; "
+            f"{where}: expected Drawn, found {type(drawn).__name__}; "
             "modern.study.drawn(points) makes it from integers, modern.study.Drawn(points) from decimals as text"
         )
-    check_points(drawn, f"cell {cell.name}: family {cell.family}: sample {index}")
+    check_points(drawn, f"{where}: sample {index}")
     return drawn
 
 
