@@ -7,10 +7,10 @@ from math import atan2
 
 from modern.comparison.difference import CardDifferences
 from modern.drawing import svg
-from modern.drawing.draw import Show, filter_scene, number_items, scene_items, width_of
-from modern.drawing.layout import MARGIN, Layout, Pixel, lay_out
+from modern.drawing.draw import Show, filter_scene, number_items, pixels_of_points, scene_items, width_of
+from modern.drawing.layout import MARGIN, Pixel, lay_out
 from modern.drawing.legend import band, band_height, caption
-from modern.drawing.scene import Scene, scene
+from modern.drawing.scene import scene
 from modern.drawing.svg import Style, page
 from modern.geometry.hull import Hull
 
@@ -41,7 +41,7 @@ def draw_against(
     width = width_of(picture, width)
     layout = lay_out(picture, width)
     top = layout.height + band_height(picture, width, title)
-    at = _pixels(hull, picture, layout)
+    at = pixels_of_points(hull, picture, layout)
     items = [
         *scene_items(hull, picture, layout),
         *_faces(hull, claim, at),
@@ -52,13 +52,6 @@ def draw_against(
     ]
     rows = max(1, len(_counts(claim)) + bool(claim.others))
     return page(width, top + _STEP * rows + 8, title or caption(picture), items)
-
-
-def _pixels(hull: Hull, picture: Scene, layout: Layout) -> dict[int, Pixel]:
-    pixels = {index: layout.vertices[place] for place, index in enumerate(hull.vertices)}
-    for marks, places in ((picture.boundary, layout.boundary), (picture.inside, layout.inside)):
-        pixels.update({mark.index: at for mark, at in zip(marks, places, strict=True)})
-    return pixels | {index: pixels[first] for index, first in hull.duplicates}
 
 
 def _faces(hull: Hull, claim: CardDifferences, at: Mapping[int, Pixel]) -> Iterator[str]:

@@ -147,6 +147,14 @@ def scene_items(hull: Hull, picture: Scene, layout: Layout) -> list[str]:
     ]
 
 
+def pixels_of_points(hull: Hull, picture: Scene, layout: Layout) -> dict[int, Pixel]:
+    """Return the position of each point of the input, by its index; duplicates have the position of the first point."""
+    pixels = {index: layout.vertices[place] for place, index in enumerate(hull.vertices)}
+    for marks, places in ((picture.boundary, layout.boundary), (picture.inside, layout.inside)):
+        pixels.update({mark.index: at for mark, at in zip(marks, places, strict=True)})
+    return pixels | {index: pixels[first] for index, first in hull.duplicates}
+
+
 def _faces(picture: Scene, layout: Layout) -> list[str]:
     polygons = []
     for pane in picture.panes:

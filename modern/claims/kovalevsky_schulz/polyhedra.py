@@ -13,6 +13,7 @@ from modern.digital.hull import digital_hull
 from modern.digital.solids import Volume, listed
 from modern.exact_hull import ExactHull
 from modern.geometry.mesh import sides
+from modern.geometry.vectors import independent
 from modern.papers.kovalevsky_schulz import (
     CENTRES,
     INVISIBLE,
@@ -26,7 +27,7 @@ from modern.papers.kovalevsky_schulz.cells import CellList
 from modern.papers.kovalevsky_schulz.coplanar import EXTENDED, QUADRANGLES, coplanar_hull
 from modern.papers.kovalevsky_schulz.corners import Of
 from modern.papers.kovalevsky_schulz.hull import merged, straightened
-from modern.papers.kovalevsky_schulz.polyhedron import Coplanar, CurrentPolyhedron, independent
+from modern.papers.kovalevsky_schulz.polyhedron import Coplanar, CurrentPolyhedron
 
 GRID: tuple[Point, ...] = tuple((x, y, z) for x, y, z in product(range(3), repeat=3))
 PYRAMID: tuple[Point, ...] = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 2))

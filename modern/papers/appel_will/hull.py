@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from emulator.errors import quoted
 from modern.exact_hull.coordinates import read_points
 from modern.geometry.points import Points
-from modern.geometry.vectors import area_vector, cross, dot, minus
+from modern.geometry.vectors import area_vector, dot, independent, minus
 from modern.papers.appel_will.corners import Preprocessing, Rule, preprocess
 from modern.papers.appel_will.loops import LoopTable, find_loops, surface
 from modern.papers.appel_will.star import Deleted, IntPoint, Pair, StarTest, as_printed, convex_edges, in_one_pass
@@ -135,16 +135,4 @@ def appel_will(points: Points, surfaces: Sequence[Surface] = (), method: Method 
     table = find_loops(scaled, convex.edges, method.printed)
     topological_map = tuple(surface(loop.entries, convex.edges) for loop in table.loops)
     assembly = (preprocessing, convex.deleted, convex.projections, convex.edges, table, topological_map)
-    return Assembled(scaled, scale, duplicates, *assembly, _dimension(list(first)))
-
-
-def _dimension(points: Sequence[IntPoint]) -> int:
-    if len(points) == 1:
-        return 0
-    # The first point off the line of points 0 and 1 gives a plane, and a point off this plane gives a solid.
-    along = minus(points[1], points[0])
-    normals = (cross(along, minus(point, points[0])) for point in points)
-    normal = next((normal for normal in normals if any(normal)), None)
-    if normal is None:
-        return 1
-    return 3 if any(dot(normal, minus(point, points[0])) for point in points) else 2
+    return Assembled(scaled, scale, duplicates, *assembly, len(independent(list(first))) - 1)

@@ -10,7 +10,7 @@ from fractions import Fraction
 from itertools import pairwise
 
 from modern.drawing import svg
-from modern.drawing.draw import Show, checked_width, filter_scene, scene_items, width_of
+from modern.drawing.draw import Show, checked_width, filter_scene, pixels_of_points, scene_items, width_of
 from modern.drawing.labels import Label, place_labels
 from modern.drawing.layout import MARGIN, Pixel, fit, lay_out
 from modern.drawing.legend import band, band_height, wrapped
@@ -68,10 +68,7 @@ def solid_svg(
     picture = filter_scene(scene(record, eye), Show())
     width = width_of(picture, width)
     layout = lay_out(picture, width)
-    at = {index: layout.vertices[place] for place, index in enumerate(record.vertices)}
-    for marks, places in ((picture.boundary, layout.boundary), (picture.inside, layout.inside)):
-        at |= {mark.index: place for mark, place in zip(marks, places, strict=True)}
-    at |= {index: at[first] for index, first in record.duplicates}
+    at = pixels_of_points(record, picture, layout)
     drawn = {tuple(sorted((record.vertices[e.start], record.vertices[e.end]))): e for e in picture.edges}
     original_lines = {(min(a, b), max(a, b)) for surface in original for a, b in sides(surface)}
     nonconvex = sorted(original_lines.difference(drawn))

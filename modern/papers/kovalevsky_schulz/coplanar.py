@@ -14,9 +14,8 @@ from typing import Final, Literal
 
 from emulator.errors import quoted
 from modern.geometry.mesh import sides
-from modern.geometry.vectors import cross, dot, lowest, minus
+from modern.geometry.vectors import cross, dot, independent, lowest, minus
 from modern.papers.kovalevsky_schulz.cells import IntPoint, Plane
-from modern.papers.kovalevsky_schulz.polyhedron import independent
 
 Treatment = Literal["quadrangles", "extended"]
 QUADRANGLES: Final = "quadrangles"

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from emulator.errors import quoted
 from modern.exact_hull import ExactHull, exact_hull
-from modern.geometry.vectors import cross, dot, minus
+from modern.geometry.vectors import cross, dot, independent, minus
 from modern.papers.kovalevsky_schulz.cells import CellList, IntPoint, assembled
 
 # How one visible face is found. The faces visible from a point are connected through edges. This is true even if a face
@@ -260,20 +260,3 @@ def convex_polyhedron(points: Iterable[Sequence[int]], coplanar: Coplanar = VISI
 
 def flat_hull(hull: ExactHull) -> Flat:
     return Flat(hull.dimension, tuple(hull.scaled[index] for index in hull.polygon or hull.vertices))
-
-
-def independent(points: Sequence[IntPoint]) -> list[int]:
-    """Return the indices of the first four points that are not coplanar, or of fewer if all points lie in one plane."""
-    simplex = [0]
-    normal: IntPoint = (0, 0, 0)
-    for number in range(1, len(points)):
-        arm = minus(points[number], points[0])
-        if len(simplex) == 1:
-            simplex.append(number)
-        elif len(simplex) == 2:
-            normal = cross(minus(points[simplex[1]], points[0]), arm)
-            if any(normal):
-                simplex.append(number)
-        elif dot(normal, arm):
-            return [*simplex, number]
-    return simplex

@@ -13,10 +13,11 @@ from numpy.typing import NDArray
 from modern.digital.hull import digital_hull
 from modern.digital.solids import Volume, VolumeError, ball, half_ball
 from modern.exact_hull import ExactHull, exact_hull
+from modern.geometry.vectors import independent
 from modern.papers import kovalevsky_schulz as ks
 from modern.papers.kovalevsky_schulz import corners
 from modern.papers.kovalevsky_schulz.corners import Of, corners_by_neighbours, places
-from modern.papers.kovalevsky_schulz.polyhedron import CurrentPolyhedron, Waiting, independent
+from modern.papers.kovalevsky_schulz.polyhedron import CurrentPolyhedron, Waiting
 
 FEW = settings(max_examples=40)
 PLACES = (ks.CENTRES, ks.VERTICES)
