@@ -1,4 +1,4 @@
-"""The texts of the edition: witness, apparatus, the decks built from them, and the evidence for every emendation.
+"""The texts of the edition: witnesses, emendations, the decks built from them, and the evidence for each emendation.
 
 To add an emendation:
 

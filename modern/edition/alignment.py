@@ -1,4 +1,4 @@
-"""Compare short texts by their characters: edit distance, confusable characters, and alignments.
+"""Compare short texts character by character: their edit distance, and their best alignment.
 
 References
 ----------
@@ -16,8 +16,9 @@ MISSING, CONFUSABLE, OTHER = 0.9, 0.5, 1.2
 
 
 def distance(a: str, b: str) -> int:
-    """Return the edit distance of two texts by the algorithm of Myers (1999), which stores a column of the dynamic
-    programme in two integers.
+    """Return the edit distance of two texts.
+
+    The algorithm of Myers (1999) stores a column of the table of distances in two integers.
     """
     if not a or not b:
         return len(a) + len(b)
@@ -39,7 +40,7 @@ def distance(a: str, b: str) -> int:
 
 @cache
 def _representatives() -> Mapping[int, str]:
-    """Map each confusable character to the first character of its class of characters that may be confused."""
+    """Map each confusable character to one character that represents all characters it may be confused with."""
     group: dict[str, str] = {}
     for pair in table():
         if pair.cls == "confusable" and len(pair.witness) == len(pair.lemma) == 1:
@@ -51,13 +52,13 @@ def _representatives() -> Mapping[int, str]:
 
 @cache
 def folded(text: str) -> str:
-    """Return a text in which each confusable character is replaced by the representative of its class."""
+    """Return a text in which characters that may be confused are replaced by one character that represents them."""
     return text.translate(_representatives())
 
 
 @cache
 def _pair_costs() -> Mapping[tuple[str, str], float]:
-    """Return the cost of each pair (card's character, transcription's character) of the table of confusables."""
+    """Return the costs of pairs (character of the card, character of the transcription) that may be confused."""
     return {
         (p.lemma, p.witness): CONFUSABLE
         for p in table()
@@ -66,10 +67,10 @@ def _pair_costs() -> Mapping[tuple[str, str], float]:
 
 
 def align_characters(card: str, line: str) -> list[tuple[int, int]]:
-    """Return the least-cost alignment of a card's text with a line, as steps (index in the card, index in the line).
+    """Return the alignment of a card's text with a line that has the least cost, as pairs of indices.
 
-    An index is -1 for a character that the other text lacks.  A confusable pair costs half as much as another
-    difference.
+    A pair has the index of a character of the card and that of the aligned character of the line.  If the card or the
+    line lacks the character, its index is -1.
     """
     if card == line:
         return [(n, n) for n in range(len(card))]
@@ -103,7 +104,10 @@ def align_characters(card: str, line: str) -> list[tuple[int, int]]:
 
 
 def divide(line: str, cards: Sequence[str]) -> list[str]:
-    """Divide a line between consecutive cards.  A character that aligns with no card stays with the card before it."""
+    """Divide the text of a line into one piece for each of several consecutive cards.
+
+    A character that aligns with no card belongs to the same card as the character before it.
+    """
     if len(cards) == 1:
         return [line]
     owner = [n for n, card in enumerate(cards) for _ in card]

@@ -1,5 +1,4 @@
-"""Single cards as the restorer reads them: their form, their errors, and the texts that result from exchanging one pair
-of confusable characters.
+"""Functions of single cards for the restorer: the form of a card, its first error, and its possible corrections.
 
 The cards have no blanks, except comments and FORMATs.
 """
@@ -17,7 +16,7 @@ from emulator.language.statements import sources
 from modern.edition.readings import Pair, solid, table
 from modern.edition.variants import LABELS
 
-# The characters that no statement has, a word of prose, and the first words of statements.
+# Patterns of characters that no statement has, of a word of prose, and of the first words of statements.
 _BAD = re.compile(r"[a-z#_'\":;<>\[\]{}\\~!?&%^|`]|[^\x00-\x7f]")
 _WORD = re.compile(r"\b[A-Z][A-Z']{2,}\b")
 _KEYWORD = re.compile(r"[ \d]*(?:GO ?TO|PUNCH|READ|PRINT|TYPE|ACCEPT|FORMAT|DIMENSION|COMMON|CALL|PAUSE|STOP|DO )")
@@ -25,7 +24,7 @@ _NAME = re.compile(r"[A-Z][A-Z0-9]*")
 
 
 def is_prose(card: str) -> bool:
-    """Return True for a comment that lost its C: three words, or one long one, without the signs of a statement."""
+    """Return True if a card is a comment without its C: three words or one long word, but no sign of a statement."""
     if "=" in card or "(" in card or _KEYWORD.match(card):
         return False
     return len(_WORD.findall(card)) >= 3 or re.fullmatch(r" *[A-Z-]{15,}", card) is not None
@@ -33,7 +32,10 @@ def is_prose(card: str) -> bool:
 
 @lru_cache(1 << 18)
 def statement(card: str) -> tuple[tree.Statement | None, int]:
-    """Return the statement of a card and 0, or None and the column of the first error.  A comment has no statement."""
+    """Return the statement of a card and 0, or None and the column of its first error.
+
+    For a comment, which has no statement, return None and 0.
+    """
     is_comment = card.startswith("C  ")
     bad = None if is_comment else _BAD.search(card)
     if bad:
@@ -60,16 +62,18 @@ def fault(card: str) -> int | None:
 
 
 def progress(card: str) -> int:
-    """Return a score of a card, which is higher the further right its first error is, and lower for each character that
-    no card can have.
+    """Return a score of a card.
+
+    The score is the column of the first error, minus 100 for each character that no statement has.
     """
     return (fault(card) or 0) - 100 * len(_BAD.findall(card))
 
 
 def exchanges(card: str) -> Iterator[tuple[str, Pair]]:
-    """Yield every text that results from exchanging one pair of confusable characters on a card.
+    """Yield each text that results from replacing one misread place on a card by a lemma of the table of confusables.
 
-    If the card has a character that no statement can have, only exchanges of the first such character are tried.
+    Each text is yielded with the pair of misread and correct characters.  If the card has characters that no statement
+    can have, only replacements of the first of them are tried.
     """
     bad = None if card.startswith("C  ") else _BAD.search(card)
     for pair in table():
@@ -86,7 +90,10 @@ def exchanges(card: str) -> Iterator[tuple[str, Pair]]:
 
 @lru_cache(1 << 16)
 def labels(card: str) -> tuple[str, tuple[str, ...]]:
-    """Return the number of a statement and the numbers to which it refers.  An F precedes the number of a FORMAT."""
+    """Return the number of a statement and the numbers of other statements in it.
+
+    The number of a FORMAT begins with F, so that it differs from the same number of another statement.
+    """
     match = re.match(r"\s*(\d*)(.*)", card)
     assert match is not None
     number = ("F" if match[2].strip().startswith("FORMAT") else "") + match[1] if match[1] else ""
@@ -100,6 +107,7 @@ def labels(card: str) -> tuple[str, tuple[str, ...]]:
 
 @lru_cache(1 << 16)
 def names(card: str) -> frozenset[str]:
+    """Return the names of variables and functions on a card."""
     text = re.sub(r"^\d*(?:GOTO|DO\d+|(?:READ|PUNCH|PRINT|TYPE|ACCEPT)\d*|IF\(SENSESWITCH\d|IF)?", "", card)
     return frozenset() if "FORMAT" in card or card.startswith("C  ") else frozenset(_NAME.findall(text))
 

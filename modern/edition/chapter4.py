@@ -1,7 +1,7 @@
 """The worked examples of chapter 4 of the thesis (theorems 4.1, 4.2 with Table 1, and 4.8) as exact data.
 
-Each point or plane names the line of the corrected text of chapter 4 that prints it, and quotes the words of that line.
-:func:`theorem_faults` parses these words and compares the result with the data.
+Each point or plane names the line of the corrected text of chapter 4 that prints it, and quotes its printed form.
+:func:`theorem_faults` parses the printed form and compares the result with the data.
 """
 
 import re
@@ -24,7 +24,7 @@ _TERM = re.compile(r"([+-]?)(\d*)([xyz]?)")
 
 @dataclass(frozen=True, slots=True)
 class Point:
-    """A printed point: its name, exact coordinates (x, y, z), printed line and words."""
+    """A printed point: its name, its exact coordinates (x, y, z), the id of its line, and its printed form."""
 
     name: str
     at: Vector
@@ -34,7 +34,11 @@ class Point:
 
 @dataclass(frozen=True, slots=True)
 class Plane:
-    """The plane Ax + By + Cz + D = 0, with the points that it contains according to the thesis."""
+    """The plane Ax + By + Cz + D = 0 of a worked example.
+
+    ``coefficients`` are A, B, C and D, and ``vertices`` the points that the plane contains according to the thesis.
+    ``printed`` is its equation in the line ``line``.
+    """
 
     number: int
     coefficients: Vector
@@ -43,6 +47,7 @@ class Plane:
     printed: str
 
     def at(self, point: Point) -> Fraction:
+        """Return the value of the left side of the equation at a point."""
         products = (a * x for a, x in zip(self.coefficients, point.at, strict=False))
         return sum(products, self.coefficients[3])
 
@@ -51,9 +56,11 @@ class Plane:
 class Theorem:
     """A worked example.
 
-    ``extremes`` maps lx, sx, ly, sy, lz and sz (the points with largest and smallest x, y and z) to point names.
-    ``signs`` holds triples (plane, point, sign): the sign of the plane's equation at the point, as the text states it.
-    ``lost`` names the points whose coordinates the OCR lost and the text does not determine.
+    ``extremes`` names the points that the thesis calls lx, sx, ly, sy, lz and sz, which have the largest or smallest x,
+    y or z.  ``outside_plane`` names the points that do not lie on the plane according to the text.  ``signs`` holds
+    triples (number of a plane, name of a point, sign): the sign that the plane's equation has at the point according to
+    the text.  ``lost`` maps the name of each point whose coordinates the OCR lost to the reason why the text does not
+    determine them.
     """
 
     id: str
@@ -113,13 +120,14 @@ def _vector(texts: Sequence[str]) -> Vector:
 
 
 def printed_point(text: str) -> Vector:
-    """Return the coordinates printed as ``(9/4, 4, 1/8)`` or ``P_1 = (9,6,-8)``."""
+    """Return the coordinates of a point printed like ``(9/4, 4, 1/8)`` or ``P_1 = (9,6,-8)``."""
     return _vector([part.strip() for part in text[text.index("(") + 1 : text.rindex(")")].split(",")])
 
 
 def printed_plane(equation: str) -> Vector:
-    """Return A, B, C, D of a printed equation such as ``2x - 5y + 14z = 0``.  A term that is not printed has the
-    coefficient 0.
+    """Return A, B, C, D of a printed equation such as ``2x - 5y + 14z = 0``.
+
+    A term that is not printed has the coefficient 0.
     """
     left, right = equation.replace(" ", "").split("=")
     if right != "0":
@@ -132,7 +140,10 @@ def printed_plane(equation: str) -> Vector:
 
 
 def theorem_faults(theorem: Theorem, text: Text) -> tuple[str, ...]:
-    """Return the differences between a theorem's data and its text, and the claims that exact arithmetic refutes."""
+    """Return a message for each difference between a theorem's data and its text, and for each claim that is wrong.
+
+    The claims are the stated number of points, the points on each plane, the extreme points and the signs.
+    """
     faults: list[str] = []
     at = {line.id: "".join(line.text.split()) for line in build(text)}
     name = f"theorem {theorem.id}"
@@ -176,13 +187,13 @@ def _plane_faults(theorem: Theorem, plane: Plane, printed_line: str) -> list[str
 
 
 def _named(point: Point, printed_line: str) -> bool:
-    """Return True if a line of a table names a point by its coordinates (4.8) or by P with a subscript (4.2)."""
+    """Return True if a line names a point by its coordinates (theorem 4.8) or by P with a subscript (theorem 4.2)."""
     subscripted = "P" + "₀₁₂₃₄₅₆₇₈₉"[int(point.name[1:])]
     return subscripted in printed_line or "".join(str(point.at[i]) + ",)"[i == 2] for i in range(3)) in printed_line
 
 
 def _extreme_faults(theorem: Theorem, label: str, name: str) -> list[str]:
-    """Check that no point is more extreme than the named one.  Lost points are ignored."""
+    # Lost points are ignored, because their coordinates are unknown.
     axis, point = "xyz".index(label[1]), theorem.point(name)
     if point is None:
         return [] if name in theorem.lost else [f"theorem {theorem.id}: {name} does not exist"]

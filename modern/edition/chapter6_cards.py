@@ -1,8 +1,8 @@
-"""The printed examples of chapter 6 as card images, with the printed line from which each character comes.
+"""The printed examples of chapter 6 as cards, with the printed line from which each number or word comes.
 
 A device file is the corrected text of an example (:mod:`modern.edition.apparatus`) set into the columns of
 ``layout.toml``.  The text supplies all nonblank characters and their order.  The layout supplies the columns and blank
-cards.  The output of our runs is not used.
+cards.  The output of our own runs is not used.
 """
 
 import re
@@ -21,12 +21,15 @@ _BLANK = " \t"
 
 
 class TranscriptError(ValueError):
-    """Raised if the corrected print does not fit on its cards; the message names file, card, line and columns."""
+    """Raised if the corrected text does not fit the layout.  The message names the file, card, line and columns."""
 
 
 @dataclass(frozen=True, slots=True)
 class Token:
-    """A printed number or word on a card: its text, its first and last column (from 1) and its printed line."""
+    """A printed number or word on a card: its text, its first and last column, and the id of its printed line.
+
+    Columns are counted from 1.
+    """
 
     text: str
     first: int
@@ -36,7 +39,11 @@ class Token:
 
 @dataclass(frozen=True, slots=True)
 class Card:
-    """A card of a device file, numbered from 1 with the blank cards, or a typed line, which has no tokens."""
+    """A card of a device file, or a typed line, which has no tokens.
+
+    ``number`` counts the cards of the file, including blank cards, from 1.  ``image`` is the text of the card without
+    trailing blanks, and ``shape`` is the id of its :class:`~modern.edition.chapter6.CardShape`.
+    """
 
     example: int
     program: int
@@ -50,7 +57,10 @@ class Card:
 
 @dataclass(frozen=True, slots=True)
 class Chapter:
-    """Chapter 6: the text with its apparatus, the corrected print built from it, and the layout."""
+    """Chapter 6: the text with its apparatus, the corrected text (``print``) built from it, and the layout.
+
+    ``layers`` are the applied layers, and ``without`` the ids of the rows that were not applied.
+    """
 
     text: Text
     print: tuple[Line, ...]
@@ -60,7 +70,7 @@ class Chapter:
 
 
 def load_chapter(layers: Iterable[str] | None = None, without: Collection[str] = ()) -> Chapter:
-    """Read chapter 6 with the rows of ``layers`` (by default all layers), except those whose ids are in ``without``."""
+    """Read chapter 6 with the rows of ``layers``, by default all layers, except the rows with the ids ``without``."""
     return rebuilt(*_text_and_layout(), layers, without)
 
 
@@ -71,13 +81,13 @@ def _text_and_layout() -> tuple[Text, Layout]:
 
 
 def rebuilt(text: Text, layout: Layout, layers: Iterable[str] | None = None, without: Collection[str] = ()) -> Chapter:
-    """Return the chapter built from a text and a layout that have been read already."""
+    """Return chapter 6 built from a text and a layout."""
     applied = tuple(text.default if layers is None else layers)
     return Chapter(text, build(text, applied, without), layout, applied, frozenset(without))
 
 
 def without_row(chapter: Chapter, row_id: str) -> Chapter:
-    """Return the chapter with all layers, but without a row and the rows that depend on it."""
+    """Return the chapter with all layers, but without a row and without the rows that depend on this row."""
     gone, lines = built_without(chapter.text, row_id)
     return Chapter(chapter.text, lines, chapter.layout, chapter.text.layers, gone)
 
@@ -95,7 +105,7 @@ def device_layout(chapter: Chapter, example: int, program: int, device: Device) 
 
 
 def printed_lines(chapter: Chapter, entry: DeviceLayout) -> tuple[Line, ...]:
-    """Return the lines of the corrected text that make up a device file; none for a typewriter."""
+    """Return the lines of the corrected text that a device file consists of.  A file of typed lines has none."""
     if entry.span is None:
         return ()
     ids = [line.id for line in chapter.print]
@@ -133,7 +143,7 @@ def built_files(chapter: Chapter) -> Iterator[tuple[str, str]]:
 
 
 def write_files(chapter: Chapter, folder: Path) -> tuple[str, ...]:
-    """Write the device files under ``folder`` and return their names.  All are built before one is written."""
+    """Write the device files to ``folder`` and return their names.  If one cannot be built, none is written."""
     built = tuple(built_files(chapter))
     for name, contents in built:
         path = folder / name
@@ -143,7 +153,7 @@ def write_files(chapter: Chapter, folder: Path) -> tuple[str, ...]:
 
 
 class _Reader:
-    """A reader of the fields of cards, one after another, from printed lines whose spacing has no meaning."""
+    """A reader that takes the contents of fields, one after another, from printed lines.  Blanks have no meaning."""
 
     def __init__(self, name: str, lines: Sequence[Line]) -> None:
         self._name = name

@@ -1,10 +1,10 @@
-"""Checks of the whole transcript of chapter 6.  Each function returns the faults that it finds, one line for each.
+"""Checks of the whole transcript of chapter 6.  Each function returns a message for each fault that it finds.
 
-* :func:`check_tie`: The cards have the characters of the printed lines in the same order, and every line is used.
-* :func:`check_rows`: The evidence of every emendation holds, and no emendation is superfluous.
-* :func:`check_layout`: Columns, blank cards and words of the cards agree with the FORMAT statements.
-* :func:`check_arithmetic`: The printed points, planes and counts agree with each other.
-* :func:`check_files`: The committed device files equal those built from witness, apparatus and layout.
+* :func:`check_tie` checks that the cards have the characters of the printed lines in the same order.
+* :func:`check_rows` checks that the ground of every emendation holds, and that no emendation is superfluous.
+* :func:`check_layout` checks that columns, blank cards and words of the cards agree with the FORMAT statements.
+* :func:`check_arithmetic` checks that the printed points, planes and counts agree with each other.
+* :func:`check_files` checks that the committed device files are those built from witness, apparatus and layout.
 """
 
 import re
@@ -68,7 +68,7 @@ def check_rows(chapter: Chapter) -> tuple[str, ...]:
 
 
 def check_layout(chapter: Chapter) -> tuple[str, ...]:
-    """Check that cards have the columns and words of their FORMATs, and that device files use whole FORMATs."""
+    """Check that cards have the columns and words of their FORMATs, and that no card of a FORMAT is missing."""
     faults: list[str] = []
     literals: dict[str, list[str]] = {}
     texts = {(f.program, f.number): f.text for f in chapter.layout.formats}
@@ -98,7 +98,7 @@ def check_layout(chapter: Chapter) -> tuple[str, ...]:
 
 
 def records(text: str, values: int) -> tuple[tuple[tuple[Field, str], ...], ...]:
-    """Return, for each card that FORMAT ``text`` punches for ``values`` numbers, its fields and their printed words.
+    """Return the fields of each card that FORMAT ``text`` punches for ``values`` numbers, each with its printed word.
 
     The word of a numeric field is empty. Raise Refused if the FORMAT does not parse or has too few fields.
     """
@@ -144,7 +144,7 @@ def _whole_formats(entry: DeviceLayout, sizes: dict[tuple[int, int, int], int]) 
 
 
 def check_arithmetic(chapter: Chapter) -> tuple[str, ...]:
-    """Check that all files of an example have the same points and N, and that its planes have no point outside."""
+    """Check that all files of an example have the same points and the same N, and that no point is outside a plane."""
     faults: list[str] = []
     for example in sorted({d.example for d in chapter.layout.devices}):
         deck = sorted(numbers(card) for card in of_role(chapter, example, 1, "point", "deck"))
@@ -211,7 +211,7 @@ def check_files(chapter: Chapter, folder: Traversable) -> tuple[str, ...]:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run with ``--write`` or ``--check`` and return the exit status."""
+    """Write the device files (``--write``) or print all faults (``--check``), and return the exit status."""
     options = list(sys.argv[1:] if arguments is None else arguments)
     if options not in (["--write"], ["--check"]):
         print("usage: python -m modern.edition.chapter6_checks --write | --check", file=sys.stderr)

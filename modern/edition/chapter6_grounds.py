@@ -1,21 +1,20 @@
 """Check the grounds of the rows of chapter 6: the evidence for each emendation, tested with exact decimals.
 
 The ground of a row must hold in the corrected text, and must fail if the row and the rows that depend on it are left
-out.  This detects both superfluous and wrong rows.  Grounds use the printed text alone, never a run of a program.
+out.  This detects superfluous and wrong rows.  Grounds use only the printed text, never a run of a program.  The table
+``ground`` of a row may contain a second ground under the key ``also``, which must hold too.  The kinds of ground:
 
-The kinds of ground (table ``ground`` of a row; ``also`` may hold a second ground, which must hold too):
-
-``width``       every line that the row changes consists of well-formed numbers and words; without the row, it does not
-``deck``        the numbers on the card ``example, program, device, card`` (or only its number ``field``) occur in a
-                line that the row changes
-``arithmetic``  ``check = "plane"``: the equation vanishes at its printed vertices, which are those that the ground
-                names; ``"carrier"``: the plane of example 4 vanishes at all points; ``"centre"``: the point C is the
-                mean of the first four points; ``"minus-with-point"``: in the named lines the OCR lost the decimal
-                points of exactly the negative numbers
-``sibling``     the words occur in the ``own`` lines and in the ``lines`` of another part of the chapter
-``order``       ``lines``: sorting these lines of the witness by their first columns gives the order that the row
-                makes; ``role``: the numbers of the table of this role count up from 1; ``page``: the row deletes the
-                number of a page
+``width``       every line that the row changes consists of well-formed numbers and words
+``deck``        a line that the row changes has the same numbers as the card that the ground names by ``example``,
+                ``program``, ``device`` and ``card``; with ``field``, the number in this field occurs more often in the
+                changed lines with the row than without it
+``arithmetic``  ``check = "plane"``: the equation is zero at its printed vertices, which the ground also names;
+                ``"carrier"``: the equation of the common plane of example 4 is zero at all points; ``"centre"``: the
+                inside point C is the mean of the first four points; ``"minus-with-point"``: in the named lines the OCR
+                lost the decimal points of exactly the negative numbers
+``sibling``     ``words`` occur in the changed lines ``own`` and in ``lines``, which are in another part of the chapter
+``order``       ``lines``: the row puts these lines of the witness in the order of their first columns; ``role``: the
+                numbers of the cards with this role count up from 1; ``page``: the row deletes the number of a page
 """
 
 import re
@@ -36,7 +35,7 @@ Ground = Mapping[str, Any]
 
 
 def row_faults(chapter: Chapter, row: Row) -> tuple[str, ...]:
-    """Return the faults of a row: each ground that fails in the corrected text, or that also holds without the row."""
+    """Return a message for each ground of a row that fails in the corrected text or also holds without the row."""
     grounds = [row.ground, *([row.ground["also"]] if "also" in row.ground else [])]
     faults = []
     without = without_row(chapter, row.id)
@@ -69,7 +68,7 @@ def _touched(chapter: Chapter, row: Row) -> tuple[Line, ...]:
 def well_formed(text: str, signed: bool) -> bool:
     """Return True if a printed line consists only of E14.8 numbers, short integers and words in card characters.
 
-    ``signed`` is True for a line of an input deck, where every number has a printed sign.
+    If ``signed``, every E14.8 number must have a sign, as on the cards of an input deck.
     """
     rest = (_SIGNED if signed else E14).sub(" ", text)
     if _STRAY.search(rest):
@@ -121,7 +120,7 @@ def _count(chapter: Chapter, row: Row, value: Decimal) -> int:
 
 
 def vertices(chapter: Chapter, example: int, program: int) -> tuple[tuple[Decimal, ...], ...]:
-    """Return the vertices or endpoints that an output lists, or its first four points if it lists none."""
+    """Return the vertices or endpoints that a program punched, or the first four points if it punched neither."""
     roles: tuple[Role, ...] = ("vertex", "endpoint", "point")
     for role in roles:
         if point_cards := of_role(chapter, example, program, role):
@@ -134,7 +133,10 @@ def plane_at(plane: Sequence[Decimal], point: Sequence[Decimal]) -> Decimal:
 
 
 def incidences(chapter: Chapter, example: int, program: int) -> dict[int, tuple[int, ...]]:
-    """Map each equation number to its printed vertices.  Intermediate decks have them on the card of the plane."""
+    """Return the numbers of the printed vertices of each equation, by the number of the equation.
+
+    An intermediate deck has the numbers of the vertices on the card of the plane.
+    """
     if planes := of_role(chapter, example, program, "plane"):
         return {n: integers(card) for n, card in enumerate(planes, start=1)}
     if program == 1 and (table := of_role(chapter, example, 1, "incidence")):
@@ -145,6 +147,7 @@ def incidences(chapter: Chapter, example: int, program: int) -> dict[int, tuple[
 
 
 def planes(chapter: Chapter, example: int, program: int) -> dict[int, tuple[Decimal, ...]]:
+    """Return the coefficients of each printed equation, by its number."""
     if plane_cards := of_role(chapter, example, program, "plane"):
         return {n: numbers(card) for n, card in enumerate(plane_cards, start=1)}
     return {integers(c)[0]: numbers(c) for c in of_role(chapter, example, program, "equation")}
@@ -177,7 +180,6 @@ def _centre(chapter: Chapter, row: Row, ground: Ground) -> bool:
 
 
 def _minus_with_point(chapter: Chapter, row: Row, ground: Ground) -> bool:
-    """Return True if, in the named lines of the witness, exactly the negative numbers have lost their point."""
     for line in _lines(chapter, ground["lines"]):
         witness = next(w for w in chapter.text.witness if w.id == line.id)
         cells = [cell.strip() for cell in witness.text.split("\t") if "E" in cell]
@@ -207,7 +209,7 @@ def _order(chapter: Chapter, row: Row, ground: Ground) -> bool:
 
 
 def _by_columns(chapter: Chapter, row: Row, ids: Sequence[str]) -> bool:
-    """Return True if the named lines of the witness are out of order by their columns, and the row sorts them."""
+    """Return True if the row sorts lines of the witness that are out of order by their first columns."""
     witness = [line for line in chapter.text.witness if line.id in ids]
     ordered = sorted(witness, key=lambda line: len(line.text) - len(line.text.lstrip()))
     others = frozenset(r.id for r in chapter.text.rows) - {row.id}

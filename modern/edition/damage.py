@@ -1,7 +1,8 @@
 """Damage texts as the OCR damaged the listings, by the pairs of ``fortran_src/apparatus/confusables.toml``.
 
-:func:`rates` gives each pair the rate at which rows of the layer ``ocr`` find it in the listings: its uses divided by
-the occurrences of its lemma.  :func:`damaged` exchanges characters of a text at such rates.
+A pair has characters that the card has (the lemma) and characters that the OCR read instead (the witness).
+:func:`rates` returns how often the OCR did this in the listings: the number of places that rows of the layer ``ocr``
+correct, divided by the number of places with the lemma.  :func:`damaged` damages a text at such rates.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -29,12 +30,12 @@ def rates() -> Rates:
 
 @cache
 def with_lost_signs(share: float) -> Rates:
-    """Return the rates of the listings, but lose each sign and point of a text with the chance ``share``."""
+    """Return the rates of the listings, but with the rate ``share`` for each loss of a sign or of a point."""
     return {**rates(), **{pair: share for pair in table() if pair.cls == "sign" and not pair.witness}}
 
 
 def uniform(share: float, text: str) -> Rates:
-    """Return the same rate for all pairs of characters, so that about ``share`` of a text's characters change."""
+    """Return equal rates for all pairs, such that about the share ``share`` of the characters of a text changes."""
     pairs = [pair for pair in table() if pair.cls not in ("comment", "zero") and pair.lemma + pair.witness]
     size = len("".join(text.split()))
     opportunities = sum(text.count(pair.lemma) if pair.lemma else size / 20 for pair in pairs)
@@ -45,11 +46,10 @@ def uniform(share: float, text: str) -> Rates:
 def damaged(
     text: str, chances: Rates, random: Random, allowed: Callable[[str, int], bool] = lambda text, at: True
 ) -> list[str]:
-    """Damage a text, and return for each of its characters the text that replaces it, including any marks inserted
-    after it.
+    """Damage a text, and return for each of its characters the text that replaces it, with the marks inserted after it.
 
-    If a pair of several characters is exchanged, the replacement stands at the first of them.  ``allowed`` tells which
-    characters may change.
+    If several characters are replaced together, the replacement is at the index of the first.  ``allowed(text, index)``
+    returns True if the character at an index may change.
     """
     by_lemma: dict[str, list[Pair]] = {}
     for pair in chances:
@@ -69,7 +69,7 @@ def damaged(
 
 
 def _drawn(pairs: Sequence[Pair], chances: Rates, random: Random) -> Pair | None:
-    """Return one of the pairs, chosen at random by the rates of the pairs, or None."""
+    """Return one of the pairs, each with the probability that is its rate, or None."""
     number = random.random()
     for pair in pairs:
         number -= chances[pair]

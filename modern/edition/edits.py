@@ -1,6 +1,6 @@
-"""The smallest edits that turn a reading of the witness into the lemma: words, blanks between words, and moved words.
+"""Find the smallest edits that turn a reading of the witness into the lemma: of words, of blanks, and of moved words.
 
-:mod:`modern.edition.segments` turns each edit into a place of the text.  All indices count characters of the old text.
+:mod:`modern.edition.segments` turns each edit into a place of the text.  All indices refer to the old text.
 """
 
 import re
@@ -15,8 +15,8 @@ from modern.edition.apparatus import Change
 class Edit:
     """A replacement of the characters ``first`` to ``last`` (exclusive) of a text by ``new``.
 
-    ``moved`` is the number of a displaced piece.  The edit that removes the piece and the edit that inserts it have the
-    same number.
+    ``moved`` is 0, or the number of a moved piece.  The edit that removes the piece and the edit that inserts the piece
+    have the same number.
     """
 
     first: int
@@ -26,7 +26,7 @@ class Edit:
 
 
 def common_prefix(a: str, b: str) -> int:
-    """Return the number of characters with which both texts begin."""
+    """Return the length of the longest common beginning of two texts."""
     return next((n for n, (x, y) in enumerate(zip(a, b, strict=False)) if x != y), min(len(a), len(b)))
 
 
@@ -41,13 +41,13 @@ def blank_edits(old: str, new: str) -> Iterator[Edit]:
 
 
 def word_edits(old: str, new: str) -> Iterator[Edit]:
-    """Yield the edits of the words of a text.  The blanks between the words may still differ from ``new``."""
+    """Yield the edits that give a text the words of ``new``.  The blanks between the words may still differ."""
     for edit, _ in _word_edits(old, new):
         yield edit
 
 
 def _word_edits(old: str, new: str) -> Iterator[tuple[Edit, tuple[range, Sequence[str]]]]:
-    """Yield each edit with the numbers of the words that it removes and the words that it inserts."""
+    """Yield each edit with the indices of the words that it removes and the words that it inserts."""
     before, after = ([*re.finditer(r"\S+", text)] for text in (old, new))
     matcher = SequenceMatcher(None, [word[0] for word in before], [word[0] for word in after], autojunk=False)
     for kind, a, b, c, d in matcher.get_opcodes():
@@ -60,8 +60,8 @@ def _word_edits(old: str, new: str) -> Iterator[tuple[Edit, tuple[range, Sequenc
 def moving_edits(changes: Sequence[Change]) -> list[list[Edit]]:
     """Return the edits of each change of a row that moves words from one place to another.
 
-    A run of words that stays together is one piece.  Words that were not removed elsewhere are inserted, and removed
-    words that are inserted nowhere disappear.
+    Consecutive words that are moved together are one piece.  A row may also insert words that it did not remove
+    elsewhere, and remove words that it inserts nowhere.
     """
     tokens = [[*re.finditer(r"\S+", change.witness)] for change in changes]
     edits: list[list[Edit]] = [[] for _ in changes]

@@ -1,17 +1,18 @@
 """Check the evidence for each emendation (row of the apparatus) of the listings.
 
-The ground of a row names its evidence.  :func:`check_row` removes the row and tests the ground.  There are six kinds:
+The *ground* of a row names its evidence.  :func:`check_row` removes the row and tests the ground, by its kind:
 
 ``parse``     without the row, the deck does not compile
 ``print``     without the row, a printed result is no longer reproduced
 ``deck``      without the row, the program punches different cards for a data deck
-``forced``    with the row, the card equals a similar card with the names exchanged; without the row, it does not.
-              If the ground names the first and last card of an ``equation``, they compute V (p. 15) with the row only
+``forced``    with the row, the card equals a similar card in which names are exchanged; without the row, it does not.
+              If the ground names the first and the last card of an ``equation``, the cards from the first to the last
+              must also compute V (thesis p. 15) with the row, and must not without it
 ``cosmetic``  the row changes only the look of a card: the object code is the same with and without the row
-``page``      a reader of the page has reported the card as the row has it
+``page``      someone who read the page has reported the card as the row has it
 
-If a row consists of several steps (:mod:`modern.edition.readings`), each step is also removed alone, and the test of
-the ground must have the same result.
+If a row consists of several steps (:mod:`modern.edition.readings`), each step is also undone alone, and the ground must
+fail then too.
 
 To judge a row of an optional layer, its layer and the layers that its ground names are added to all three programs.
 The result with all rows of the layer is compared with the result without this row.
@@ -45,7 +46,7 @@ from modern.thesis.job import run_hull
 LISTED = Options(limit=200_000)
 # The tables and cards of the optional layers need 60,000 digits of memory.
 LAYERED = Options(limit=1_000_000, core=60_000)
-# If a job without a row executes this many times the statements of the job with the row, its result is different.
+# A run without a row is stopped, and counts as different, after this many times the statements of the run with the row.
 LIMIT_FACTOR = 4
 
 
@@ -74,9 +75,9 @@ def check_decks() -> Iterator[Proof]:
 
 
 def check_layers() -> Iterator[Proof]:
-    """Check the programs with each optional layer, whose decks are not committed, card by card by their hashes.
+    """Check the programs with each optional layer.  Their decks are not committed; SOURCES.toml has their hashes.
 
-    With the layer ``corrected`` the programs must also give the exact hull of each deck that a correction names.
+    With the layer ``corrected`` the programs must also give the exact hull for each deck that a correction names.
     The exact hulls need numpy; without it, they are not compared.
     """
     table = provenance.sources().layered
@@ -124,6 +125,7 @@ def _compiles(name: str, built: Deck, same: bool) -> bool:
 
 
 def check_row(row: Row) -> Proof:
+    """Check the ground of a row of a listing, with the row, without it, and without each of its steps."""
     kind = str(row.ground.get("kind", ""))
     test = {
         "parse": _parse,
@@ -153,7 +155,10 @@ def _name(row: Row) -> str:
 
 
 def layers_for(row: Row) -> tuple[str, ...]:
-    """Return the optional layers with which a row is judged: the row's layer and those that its ground names."""
+    """Return the optional layers with which a row is judged: its own layer and the layers that its ground names.
+
+    A row of a layer of the committed deck needs none.
+    """
     if row.layer in programs.built_in(_name(row)).layers:
         return ()
     return (row.layer, *(str(layer) for layer in row.ground.get("layers", ())))
@@ -164,7 +169,7 @@ def _built(row: Row) -> Deck:
 
 
 def _without(row: Row, step: Step | None) -> Deck:
-    """Return the deck without a row and the rows that depend on it, or without one replacement of the row."""
+    """Return the deck without one step of a row, or without the row and the rows that depend on it."""
     if step is None:
         dependents, _ = built_without(programs.text(row.text), row.id)
         return programs.built(_name(row), layers_for(row), dependents)
@@ -259,8 +264,8 @@ def _deck(row: Row, step: Step | None) -> tuple[bool, str]:
     if program is None:
         return False, f"without the row the deck does not compile: {message}"
     if whole.storage != program.storage and len(whole.code) == len(program.code):
-        # The row changes only the size of an array.  Without it the cards may be the same, but a subscript exceeds the
-        # smaller array.  This shows that the row is needed.
+        # The row changes only the size of an array.  Without the row the cards may be the same, but a subscript that
+        # exceeds the smaller array shows that the row is needed.
         ending = _outcome(_name(row), layers_for(row), program, data).ending
         if isinstance(ending, Ending) and ending.kind == "bounds" and _has_room(whole, ending):
             return True, f"deck {deck_name} needs the larger array; without the row: {ending.message}"
@@ -278,7 +283,7 @@ def _has_room(program: Program, ending: Ending) -> bool:
 
 
 def ground_deck(name: str) -> Deck | None:
-    """Return a deck that the ground of a row names: an example's input, or a deck of ``fortran_src/grounds``."""
+    """Return a deck that a ground names: an example's input or a deck of ``fortran_src/grounds``, or None."""
     examples = {f"example{number}": number for number in chapter6.EXAMPLES}
     if name in examples:
         return chapter6.input_deck(examples[name])
@@ -288,7 +293,7 @@ def ground_deck(name: str) -> Deck | None:
 
 @dataclass(frozen=True, slots=True)
 class _Outcome:
-    """The lines that a job punched and typed, its ending or error, and the statements executed by its longest run."""
+    """The lines that a job punched and typed, its ending or error, and the number of statements of its longest run."""
 
     lines: tuple[str, ...]
     ending: Ending | EmulatorError
@@ -300,7 +305,7 @@ class _Outcome:
         return self.ending.message if isinstance(self.ending, Ending) else str(self.ending)
 
     def same_as(self, other: "_Outcome") -> bool:
-        """Return True if output and kind of ending are equal. Messages differ, because they contain card numbers."""
+        """Return True if output and kind of ending are equal.  Messages are not compared: they contain card numbers."""
         return self.lines == other.lines and _reason(self.ending) == _reason(other.ending)
 
 
@@ -312,7 +317,7 @@ def _reason(ending: Ending | EmulatorError) -> tuple[object, ...]:
 
 @cache
 def _with_row(name: str, layers: tuple[str, ...], deck_name: str) -> _Outcome:
-    """Return the outcome of a data deck with all rows applied; it is cached because many rows use the same deck."""
+    """Return the outcome of a data deck with all rows applied.  Many rows use the same deck."""
     data = ground_deck(deck_name)
     assert data is not None
     return _outcome(name, layers, programs.with_layers(name, layers), data)
@@ -353,14 +358,15 @@ def _forced(row: Row, step: Step | None) -> tuple[bool, str]:
     return True, f"card {card} equals card {sibling} with {exchanged},{equation} but not without the row"
 
 
-# The points P1, P2 and P of V, as X, Y and Z.
+# The points P1, P2 and P with which V is computed, each with its coordinates X, Y and Z.
 _TRIPLES = (((3, -7, 4), (-5, 2, 9), (6, 8, -1)), ((1, 4, -6), (7, -3, 5), (-2, 9, 8)))
 
 
 def _computes_v(deck: Deck, first: str, last: str) -> bool:
-    """Return True if statements compute V of page 15: the square of twice the area of the triangle P1 P2 P.
+    """Return True if statements compute V (thesis p. 15), the square of twice the area of the triangle P1 P2 P.
 
-    The statements are run for some points, and their results are compared with Lagrange's identity.
+    The statements are run for some points.  The expected value follows from the scalar products of two sides, by
+    Lagrange's identity.
     """
     statements = list(sources(deck))
     begin, end = _index(statements, first), _index(statements, last)
@@ -378,7 +384,7 @@ def _computes_v(deck: Deck, first: str, last: str) -> bool:
 
 
 def _card(deck: Deck, place: str) -> str:
-    """Return the text of the statement with a label such as ``147+1``, without blanks and number."""
+    """Return the text, without blanks and number, of the statement at a place such as ``147+1``."""
     statements = list(sources(deck))
     return statements[_index(statements, place)].text
 

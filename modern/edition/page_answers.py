@@ -1,7 +1,7 @@
 """Readings that someone has confirmed or corrected on the printed page, stored in ``fortran_src/readings.csv``.
 
-The edition as published has no such file, because nobody who worked on it has seen the pages.
-:mod:`modern.edition.page_readings` writes the file from filled proof sheets, which are tables with the columns
+The published edition has no such file, because nobody who worked on it has seen the pages.
+:mod:`modern.edition.page_readings` writes the file from filled proof sheets, which are CSV tables with the columns
 ``COLUMNS``.
 """
 
@@ -16,17 +16,17 @@ from io import StringIO
 
 READINGS = "readings.csv"
 COLUMNS = ("item", "page", "card", "question", "choices", "answer")
-# The rows of a filled sheet that name the reader of the page and the day.
+# The items of the two rows of a sheet in which the person who reads the page enters a name and the date.
 READER, DATE = "reader", "date"
 
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """One answer of a reader of the printed page.
+    """The answer to one item or question, by someone who read the printed page.
 
-    ``outcome`` is ``confirmed``, ``changed``, ``answered`` (an open question) or ``unreadable``.  ``card`` is the card
-    as the page has it, and ``row`` the row of the apparatus that was added for it.  ``rows`` are the rows that the
-    answer makes certain.
+    ``outcome`` is ``confirmed``, ``changed``, ``answered`` (for an open question) or ``unreadable``.  ``card`` is the
+    card as the page has it, and ``row`` the id of the row that was added to the apparatus because of it.  ``rows`` has
+    the ids of the rows that the answer makes certain, separated by blanks.
     """
 
     item: str
@@ -43,18 +43,18 @@ class Reading:
 
 @cache
 def page_readings() -> tuple[Reading, ...]:
-    """Return the answers of readers of the page that this edition includes; the published edition has none."""
+    """Return the answers that this edition includes.  The published edition has none."""
     file = files("fortran_src").joinpath(READINGS)
     return stored_readings(file.read_text(encoding="utf-8")) if file.is_file() else ()
 
 
 def stored_readings(text: str) -> tuple[Reading, ...]:
-    """Return the answers that the text of a ``readings.csv`` holds."""
+    """Return the answers in the text of a file ``readings.csv``."""
     return tuple(Reading(**row) for row in csv.DictReader(StringIO(text, newline="")))
 
 
 def blank_table(rows: Sequence[Mapping[str, str]]) -> str:
-    """Return an empty proof sheet as a CSV table: rows for the reader and the date, then the rows of its items."""
+    """Return a proof sheet without answers as a CSV table: rows for the reader and the date, then the given rows."""
     table = StringIO(newline="")
     writer = csv.DictWriter(table, COLUMNS, restval="", lineterminator="\r\n")
     writer.writeheader()

@@ -1,7 +1,8 @@
-"""Read a completed proof sheet, and make a state of the edition (a copy of its data) that includes the answers.
+"""Read a completed proof sheet, and write a state of the edition that includes the answers.
 
-A state is a folder with a copy of the data ``fortran_src``: apparatus, decks and ``readings.csv``, the answers so far.
-The installed package is never changed.  A maintainer compares the state with the repository and merges it.
+A *state* is a folder with a changed copy of the data in ``fortran_src``: the apparatus, the decks, and
+``readings.csv``, which holds all answers so far.  The installed package is never changed.  A maintainer compares the
+state with the repository and merges it.
 """
 
 from __future__ import annotations
@@ -32,8 +33,8 @@ UNREADABLE = "?"
 def read_sheet(name: str, text: str) -> tuple[Reading, ...]:
     """Return the answers of a filled sheet: a CSV table with the columns ``COLUMNS``.
 
-    An answer is a letter of the item, ``?`` if the page cannot be read, or ``=`` and the card as the page has it.
-    Rows without an answer are skipped.  Raise FileError with the row of the first fault.
+    An answer is the letter of a choice, ``?`` if the page cannot be read, or ``=`` followed by the card as the page has
+    it.  Rows without an answer are skipped.  Raise FileError, which names the row, for the first fault.
     """
     rows = csv.reader(StringIO(text, newline=""))
     head = next(rows, [])
@@ -68,7 +69,7 @@ def read_sheet(name: str, text: str) -> tuple[Reading, ...]:
 
 
 def _answered(place: str, page: str, entry: Item | Question, answer: str, reader: str, day: str) -> Reading:
-    """Return the answer of a sheet to an item or a question. Raise FileError, whose message begins with ``place``."""
+    """Return the answer to an item or a question.  The message of a FileError begins with ``place``."""
     program = entry.program if isinstance(entry, Item) else ""
     result = Reading(entry.id, page, program, "unreadable", answer, "", "", "", reader, day)
     choice = next((choice for choice in entry.choices if choice.letter == answer.upper()), None)
@@ -86,7 +87,7 @@ def _answered(place: str, page: str, entry: Item | Question, answer: str, reader
         return replace(result, outcome="confirmed", card=entry.text)
     card = choice.card if choice else answer[1:].rstrip()
     if card.strip() == entry.text.strip():
-        # The whole card is as restored, so all rows that made it are right.
+        # The page has the card as restored, so all rows that changed the card are right.
         text = programs.text(program)
         line = build(text, programs.built_in(program).layers)[entry.card - 1]
         rows = (row for row in line.rows if not any(change.form for change in text.row(row).changes))
@@ -103,10 +104,10 @@ def _answered(place: str, page: str, entry: Item | Question, answer: str, reader
 
 
 def write_state(folder: str, readings: Sequence[Reading]) -> tuple[Reading, ...]:
-    """Write a state to ``folder`` that includes the readings, and return all readings of the state.
+    """Write a state of the edition that includes the readings to ``folder``, and return all readings of the state.
 
-    If the folder is a state already, the readings are added, and the folder is replaced as a whole.  Raise FileError
-    if the folder holds other files, if an item is answered already, or if a card does not fit.
+    If the folder is a state already, the readings are added to it.  The folder is replaced as a whole.  Raise FileError
+    if the folder holds other files, or if an item is already answered, and ApparatusError if a row does not fit.
     """
     target = Path(folder)
     base = target / "fortran_src" if (target / "fortran_src" / READINGS).is_file() else None
@@ -139,7 +140,6 @@ def write_state(folder: str, readings: Sequence[Reading]) -> tuple[Reading, ...]
 
 
 def _copy(source: Traversable, target: Path) -> None:
-    """Copy a folder of data files, which may be in an archive."""
     target.mkdir(parents=True)
     for entry in source.iterdir():
         if entry.is_file():
@@ -149,7 +149,10 @@ def _copy(source: Traversable, target: Path) -> None:
 
 
 def _applied(data: Path, readings: Sequence[Reading]) -> Iterator[Reading]:
-    """Add a row to the apparatus in ``data`` for each changed card, build the decks again, and yield the readings."""
+    """Add a row to the apparatus in ``data`` for each changed card, and build the decks again.
+
+    Yield the readings, each with the id of its new row.
+    """
     for reading in readings:
         if reading.outcome != "changed":
             yield reading
@@ -164,7 +167,7 @@ def _applied(data: Path, readings: Sequence[Reading]) -> Iterator[Reading]:
 
 
 def _line_of(text: Text, reading: Reading) -> Line:
-    """Return the line of a card after the layer ``ocr``. Raise ApparatusError if later rows replace it."""
+    """Return the line of a card after the layer ``ocr``.  Raise ApparatusError if rows of later layers change it."""
     number = int(reading.item.split("-")[1])
     final = build(text, programs.built_in(text.id).layers)[number - 1]
     for line in build(text, ("ocr",)):

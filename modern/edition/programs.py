@@ -1,4 +1,4 @@
-"""The built-in programs, as committed or built from witness and apparatus with additional layers.
+"""The built-in programs, either as committed decks or built from witness and apparatus with additional layers.
 
 The apparatus is imported only if it is used, because most runs need only the committed decks.
 """
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class BuiltIn:
-    """A built-in program: its name, its number in the thesis, its text, and the layers of its deck."""
+    """A built-in program: its name, its number in the thesis, the name of its text, and the layers of its deck."""
 
     name: str
     number: int
@@ -53,7 +53,7 @@ def sources() -> Traversable:
 
 
 def built_in(name: str) -> BuiltIn:
-    """Return the built-in program of that name.  Raises KeyError."""
+    """Return the built-in program of that name.  Raise KeyError if there is none."""
     for entry in BUILT_INS:
         if entry.name == name:
             return entry
@@ -62,6 +62,7 @@ def built_in(name: str) -> BuiltIn:
 
 @cache
 def text(name: str) -> Text:
+    """Return the witness and the apparatus of a text in ``TEXTS``."""
     from modern.edition.apparatus import confirmed, load
     from modern.edition.page_answers import page_readings
 
@@ -78,10 +79,10 @@ def _lines(
 
 @cache
 def _named(name: str, layers: tuple[str, ...]) -> tuple[tuple[str, frozenset[str]], ...]:
-    """Return the name of each card of a built-in program in the edition, and the rows that changed the card.
+    """Return the name of each card of a built-in program, and the ids of the rows that changed the card.
 
-    A card is named after the last statement number, with the distance from it (``147+1``), and a comment after the
-    next statement (``before 106``).
+    The name of a card consists of the last statement number and the number of cards since then (``147+1``).  The name
+    of a comment refers to the statement after it (``before 106``).
     """
     entry = built_in(name)
     lines = _lines(entry, layers)
@@ -112,7 +113,7 @@ def card_names(name: str) -> tuple[str, ...]:
 
 
 def cards_of(row: Row) -> str:
-    """Return the cards that an emendation changes: ``147+1``, ``FORMAT 9``, ``before 106``, ``131 to 133``."""
+    """Return the names of the cards that an emendation changes, such as ``147+1``, ``FORMAT 9`` or ``131 to 133``."""
     entry = next(b for b in BUILT_INS if b.text == row.text and (row.layer in b.layers or b.name == row.text))
     if row.layer == "examples":
         entry = built_in("program1_examples")
@@ -124,20 +125,25 @@ def cards_of(row: Row) -> str:
 
 
 def committed(name: str) -> Deck:
+    """Return the committed deck of a built-in program."""
     return deck_from_text(f"{name}.f", sources().joinpath(f"{name}.f").read_text(encoding="ascii"))
 
 
 def built(name: str, layers: Sequence[str] = (), without: Collection[str] = (), instead: Row | None = None) -> Deck:
-    """Build a built-in program with additional ``layers``; ``without`` and ``instead`` are those of ``build``.
+    """Return the deck of a built-in program, built from witness and apparatus with additional ``layers``.
 
-    Raises ApparatusError if a row does not fit, and CardError if a character remains that no card can have.
+    ``without`` and ``instead`` are those of :func:`modern.edition.apparatus.build`.  Raise ApparatusError if a row does
+    not fit the text, and CardError if a card has a character that cannot be punched.
     """
     lines = _lines(built_in(name), layers, without, instead)
     return deck_from_lines(f"{name}.f", (line.text for line in lines))
 
 
 def deck(name: str, layers: Sequence[str] = ()) -> Deck:
-    """Return the deck of a built-in program with additional layers.  Raises DeckError for a layer without its rows."""
+    """Return the deck of a built-in program with additional layers.
+
+    Raise DeckError for a layer that has no rows for this program.
+    """
     if not layers:
         return committed(name)
     entry = built_in(name)
@@ -149,7 +155,7 @@ def deck(name: str, layers: Sequence[str] = ()) -> Deck:
 
 
 def program(name: str, layers: tuple[str, ...] = ()) -> Program:
-    """Compile a built-in program.  The result is cached."""
+    """Return a built-in program, compiled with additional layers.  The result is cached."""
     return _compiled(name, layers)
 
 
@@ -159,13 +165,17 @@ def _compiled(name: str, layers: tuple[str, ...]) -> Program:
 
 
 def with_layers(name: str, layers: Sequence[str]) -> Program:
-    """Compile a built-in program with those of ``layers`` that have rows for it."""
+    """Return a built-in program, compiled with those of ``layers`` that have rows for it."""
     present = {row.layer for row in text(built_in(name).text).rows} if layers else set()
     return program(name, tuple(layer for layer in layers if layer in present))
 
 
 def loader(layers: tuple[str, ...]) -> Callable[[str], Program]:
-    """Return a function that compiles the named program with ``layers`` added.  Raises DeckError for unknown layers."""
+    """Return a function that compiles the program of a given name with additional layers.
+
+    A program is compiled with those of ``layers`` that have rows for it.  Raise DeckError for a layer that no program
+    has.
+    """
     # Reading the apparatus takes time, and a program without additional layers does not need it.
     present = {row.layer for name in TEXTS for row in text(name).rows} if layers else set()
     for layer in layers:

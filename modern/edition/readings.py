@@ -1,21 +1,23 @@
 """Rules for the readings of the layer ``ocr``: each kind of row may change the witness only in certain ways.
 
 The lemma of a row is made from the witness by *steps*.  Each step replaces characters of the OCR text by the correct
-ones, for example ``l`` by ``1``.  The pairs that may be exchanged are listed in
-``fortran_src/apparatus/confusables.toml``.  :func:`steps` finds the steps of a row.  The kinds:
+characters, for example ``l`` by ``1``.  The pairs of characters that may be replaced are listed in
+``fortran_src/apparatus/confusables.toml``.  :func:`steps` finds the steps of a row.  The kinds of rows, and what a row
+of each kind may do:
 
-``displaced``   the words of the witness in another order
-``fused``, ``spacing``, ``columns``  the same characters with other blanks and line ends
-``noise``       pairs of the class ``noise``, or a line that is deleted
-``misread``     pairs of any class
-``dropped-zero``  a zero in a run of zeros is inserted
-``lost-sign``   signs, points and zeros are inserted
-``comment``     the C of a comment card is inserted before its words
-``lost``        words, or characters of words, are inserted
-``doubled``     words that belong to a neighbouring cell are deleted
-``overlaid``    no rule: the heading of another table has replaced the words
-``page``        no rule: a reader of the page has reported the card (:mod:`modern.edition.page_readings`)
-``omission``, ``conjecture`` and the kinds of cards added by the project: no rule; only their grounds support them
+``displaced``   puts the words of the witness into another order
+``fused``, ``spacing``, ``columns``  change only blanks and line ends
+``noise``       uses pairs of the class ``noise``, or deletes a line
+``misread``     uses pairs of any class except ``comment``
+``dropped-zero``  inserts a zero into a run of zeros
+``lost-sign``   inserts signs, points and zeros
+``comment``     inserts the C of a comment card before its words
+``lost``        inserts words, or characters of words
+``doubled``     deletes words that belong to a neighbouring cell of a table
+``overlaid``    may make any change: the heading of another table has replaced the words
+``page``        may make any change: someone who read the page has reported the card
+                (:mod:`modern.edition.page_readings`)
+``omission``, ``conjecture`` and the kinds of cards added by the project may make any change
 
 A pair must be used by at least two rows, or its entry in the table must name other evidence.
 """
@@ -45,7 +47,10 @@ RULED = (*CLASSES, *KEEPS, "displaced", "lost", "doubled", "overlaid", "page")
 
 @dataclass(frozen=True, slots=True)
 class Pair:
-    """Characters of the witness that may be replaced by those of ``lemma``; ``known`` is other evidence than rows."""
+    """Characters of the witness that may be replaced by the characters ``lemma``.
+
+    ``known`` is evidence for the pair other than rows that use it.
+    """
 
     witness: str
     lemma: str
@@ -55,7 +60,11 @@ class Pair:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """A replacement by a pair, at index ``at`` of the witness and index ``to`` of the lemma, both without blanks."""
+    """A replacement of characters in one change of a row, given by its index.
+
+    The replaced characters are at index ``at`` of the witness without blanks, and the new characters at index ``to`` of
+    the lemma without blanks.
+    """
 
     change: int
     at: int
@@ -98,10 +107,10 @@ def explains(witness: str, lemma: str, pairs: tuple[Pair, ...]) -> bool:
 
 
 def _way(witness: str, lemma: str, pairs: tuple[Pair, ...]) -> list[tuple[int, int, Pair]] | None:
-    """Return the pairs of characters in a cheapest alignment of both texts.
+    """Return the fewest pairs of characters that turn the witness into the lemma, each with its indices in both.
 
-    This is the dynamic programme of an edit distance, over (position in the witness, position in the lemma).  Each cell
-    stores the cell from which it was reached, so that the pairs can be traced back from the end.
+    This is the dynamic programme of an edit distance.  A cell has an index in the witness and an index in the lemma.
+    It stores the cell from which it was reached, so that the pairs can be traced back from the end.
     """
     best: dict[tuple[int, int], tuple[int, tuple[int, int] | None, Pair | None]] = {(0, 0): (0, None, None)}
     for i in range(len(witness) + 1):
@@ -144,6 +153,7 @@ def _better(
 
 
 def without_step(row: Row, step: Step) -> Row:
+    """Return a row that leaves the characters of the witness at one of its steps."""
     change = row.changes[step.change]
     lemma = _blanked(change.lemma, step.to, len(step.pair.lemma), step.pair.witness)
     changes = tuple(replace(c, lemma=lemma) if n == step.change else c for n, c in enumerate(row.changes))
@@ -159,7 +169,7 @@ def _blanked(text: str, at: int, length: int, instead: str) -> str:
 
 
 def attested(rows: Iterable[Row]) -> Counter[tuple[str, str]]:
-    """Count in how many places the rows of the layer ``ocr`` use each pair of characters."""
+    """Return the number of places in which rows of the layer ``ocr`` use each pair (witness, lemma) of characters."""
     uses: Counter[tuple[str, str]] = Counter()
     for row in rows:
         if row.layer == "ocr" and row.kind in CLASSES:

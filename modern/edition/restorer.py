@@ -1,24 +1,25 @@
 """Restore damaged programs by the written rules of the edition, without an editor.
 
-The rules are those of ``fortran_src/README.md``.  A reading may differ from the damaged text only by exchanges of the
-table of confusables, and each exchange needs a ground:
+The rules are those of ``fortran_src/README.md``.  A *reading* of a card is a text that the restorer may accept.  It may
+differ from the damaged text only by *exchanges*: replacements of misread characters by the table of confusables.  An
+exchange needs a ground:
 
-``parse``   of the readings with the fewest exchanges, only this one compiles: it has the form of a statement, the
-            numbers to which it refers exist, its own number is free, and its names occur elsewhere
+``parse``   of the readings with the fewest exchanges, only this reading compiles: it has the form of a statement, the
+            statement numbers in it exist, no other card has its own number, and its names occur elsewhere
 ``print``   with this reading the program reproduces more lines of its printed results than with every other reading.  A
             card that compiles and to which no other rule applies is emended only if all results are then reproduced.
-``forced``  only this reading equals another card (a sibling) with names exchanged; a card that compiles is emended in
-            this way only if it has 20 characters and two siblings.  The equations of chapter 3 are
+``forced``  only this reading equals another card (a sibling) in which names are exchanged.  A card that compiles is
+            emended in this way only if it has 20 characters and two siblings.  The equations of chapter 3 are
             symmetric in x, y and z, so that their cards are siblings of each other.
-``sibling`` the same for a reading that inserts a character
+``sibling`` the same as ``forced``, but the reading inserts a character
 
-A reading with the ground ``parse`` or ``print`` is *certain*.  A reading that only siblings support is *probable*.
-The reading whose exchange is attested most often in the apparatus, without a ground, is a *conjecture*.  If several
-readings remain that nothing distinguishes, the restorer abstains.
+A reading with the ground ``parse`` or ``print`` is *certain*.  A reading that only siblings support is *probable*.  If
+no ground decides, the reading whose exchange occurs most often in the apparatus is accepted as a *conjecture*.  If
+several readings remain equal, the restorer abstains.
 
-The restorer is a function of the damaged cards, the table, and the printed results.  Run as a program
-(``python -m modern.edition.restorer``), it reads them from standard input, and an audit hook rejects every attempt to
-open a listing, a witness, an apparatus or a test.
+The restorer is a function of the damaged cards, the table, and the printed results.  If the module runs as a program
+(``python -m modern.edition.restorer``), it reads the cards and results from standard input, and an audit hook rejects
+every attempt to open a listing, a witness, an apparatus or a test.
 """
 
 import json
@@ -36,17 +37,21 @@ from modern.edition.readings import Pair, solid
 from modern.edition.trials import Job, Trial, score, score_of
 
 Certainty = Literal["certain", "probable", "conjecture", "abstained"]
-# The most exchanges on a card, the readings that are extended by another exchange, and the runs to find an error.
+# EXCHANGES is the greatest number of exchanges on a card, BEAM that of the texts to which another exchange is applied,
+# and RUNS that of the readings that are run to find an error.
 EXCHANGES, BEAM, RUNS = 3, 30, 30
 # A continuation card.
 _CONTINUATION = re.compile(r" {5}[^ 0]")
-# From this number of characters on, a form without siblings is suspicious if another reading has siblings.
+# A card with at least this number of characters and no siblings is suspicious if another reading of it has siblings.
 ALONE = 20
 
 
 @dataclass(frozen=True, slots=True)
 class Restored:
-    """A card that the restorer changed or gave up.  ``card`` counts from 0, and ``text`` has no blanks."""
+    """A card that the restorer changed, or for which it abstained.
+
+    ``card`` is the index of the card from 0, and ``text`` its text without blanks.
+    """
 
     card: int
     text: str
@@ -56,7 +61,10 @@ class Restored:
 
 @dataclass(slots=True)
 class _Program:
-    """A program during restoration: ``open`` has possible readings of undecided cards, ``done`` the decided cards."""
+    """A program during its restoration.
+
+    ``open`` has the possible readings of the undecided cards, each with its exchanges, and ``done`` the decided cards.
+    """
 
     cards: list[str]
     trials: tuple[Trial, ...]
@@ -65,9 +73,10 @@ class _Program:
 
 
 def restore(jobs: Sequence[Job], weights: Mapping[str, int]) -> list[list[Restored]]:
-    """Restore programs together, because the cards of each are siblings of those of the others.
+    """Restore programs together, because the cards of one program may be siblings of cards of another.
 
-    ``weights`` gives the number of places in which the apparatus uses each pair; a key is witness, tab and lemma.
+    Return, for each program, the cards that are changed or for which the restorer abstains.  ``weights`` has the number
+    of places in which the apparatus uses each pair; a key consists of the witness, a tab and the lemma.
     """
     every = [_Program([_solid(card) for card in job.cards], job.trials) for job in jobs]
     for program, job in zip(every, jobs, strict=True):
@@ -101,7 +110,7 @@ def _solid(card: str) -> str:
 
 
 def _by_form(program: _Program, n: int) -> None:
-    """Find the readings of a card with the fewest exchanges that are statements."""
+    """Find the statements that can be made from a card with the fewest exchanges."""
     card = program.cards[n]
     frontier: list[tuple[int, str, tuple[Pair, ...]]] = [(progress(card), card, ())]
     readings: dict[str, tuple[Pair, ...]] = {}
@@ -126,7 +135,7 @@ def _by_form(program: _Program, n: int) -> None:
 
 
 def _by_compiler(program: _Program) -> None:
-    """Keep the readings of a card with which the whole program compiles."""
+    """Reduce the readings of each card to those with which the whole program compiles."""
     for n, readings in list(program.open.items()):
         others = [card for k, card in enumerate(program.cards) if k != n and k not in program.open]
         numbers = {labels(card)[0] for card in others}
@@ -151,7 +160,7 @@ def _by_compiler(program: _Program) -> None:
 
 
 def _permits(text: str, numbers: Set[str], known: Set[str], possible: Set[str] = frozenset()) -> bool:
-    """Return True if the numbers to which a card refers exist, its own is free, and its names are known."""
+    """Return True if the statement numbers in a card exist, no other card has its number, and its names are known."""
     label, references = labels(text)
     exists = all(number in numbers or number in possible or number == label for number in references)
     return exists and not (label and label in numbers) and names(text) <= known
@@ -172,7 +181,7 @@ def _weight(pairs: Sequence[Pair], weights: Mapping[str, int]) -> int:
 
 
 def _decide(program: _Program, n: int, forms: Counter[str], weights: Mapping[str, int]) -> None:
-    """Choose among readings that all compile: by printed results, by similar cards, then by frequent exchanges."""
+    """Choose among readings that compile, first by printed results, then by siblings, then by frequent exchanges."""
     readings = program.open[n]
     present = program.cards[n]
     if len(readings) <= 12 and program.trials:
@@ -242,19 +251,19 @@ def _unlike_siblings(program: _Program, forms: Counter[str]) -> None:
 
 
 def _by_sibling(pairs: Sequence[Pair]) -> tuple[Certainty, str]:
-    """Return the class and the ground of a reading that only siblings support."""
+    """Return the certainty and the ground of a reading that only siblings support."""
     return "probable", "forced" if all(pair.witness for pair in pairs) else "sibling"
 
 
 def _matching(program: _Program, n: int, text: str) -> int:
-    """Return the score of the program with ``text`` as card ``n``: how many printed results it reproduces."""
+    """Return the score (:func:`modern.edition.trials.score`) of the program with ``text`` as card ``n``."""
     return score(_with(program, n, text), program.trials)
 
 
 def _find_by_print(program: _Program, forms: Counter[str], weights: Mapping[str, int]) -> None:
     """Find exchanges with which a program reproduces its printed results.
 
-    An exchange that improves a result is kept only if the program then reproduces all its results.
+    The exchanges are kept only if the program reproduces all printed results in the end.
     """
     cards, done = list(program.cards), dict(program.done)
     while True:

@@ -1,12 +1,12 @@
 """A text with both readings of every emendation, for TEI's parallel segmentation (TEI P5 Guidelines, 12.2.3).
 
-:func:`modern.edition.apparatus.build` applies rows and returns only the result.  Here the same rows produce *places*.
-A place is a piece of a line with its old reading, its new reading and the row.  Places nest, because a row of a later
-layer may change the result of an earlier one.  :func:`reading` extracts the text with any choice of layers from this
-tree.
+:func:`modern.edition.apparatus.build` applies rows and returns only the resulting text.  Here the same rows produce
+*places*.  A place is a piece of a line with its reading before the row, its reading after the row, and the row.  Places
+are nested, because a row of a later layer may change the result of an earlier row.  :func:`reading` returns the text
+with any choice of layers.
 
-Places are as small as the change: a row that only sets columns has places that contain nothing but blanks, and a word
-that a row moves has one place where it disappears and one where it appears.
+A place contains only what changes: a row that arranges a card in columns has places of blanks only, and a word that a
+row moves has one place where it disappears and one place where it appears.
 """
 
 from collections.abc import Collection, Iterable
@@ -36,7 +36,7 @@ Piece = str | Place
 
 @dataclass(frozen=True, slots=True)
 class Segments:
-    """A line in pieces, with the ``id`` and ``page`` of its :class:`modern.edition.apparatus.Line`."""
+    """A line divided into pieces, with the ``id`` and ``page`` of its :class:`modern.edition.apparatus.Line`."""
 
     id: str
     page: str
@@ -56,7 +56,7 @@ def reading(pieces: Iterable[Piece], layers: Collection[str]) -> str:
 
 
 def segments(text: Text) -> tuple[Segments, ...]:
-    """Return every line of a text in pieces, with both readings of every emendation (a place)."""
+    """Return every line of a text divided into pieces, of which those that are emended are places."""
     segmented = _SegmentedText(text)
     for layer in text.layers:
         for row in text.rows:
@@ -124,7 +124,7 @@ class _SegmentedText:
         return text.index(change.witness)
 
     def _rewrite(self, row: Row, change: Change, edits: Iterable[Edit]) -> None:
-        """Change the words of a fragment of a line first, and then the blanks between them."""
+        # The words of the fragment change first, and then the blanks between them.
         at = self._find(row, change.line)
         first, text = self._first(row, change, at), self._text(at)
         self._edit(row, at, first, edits)
@@ -168,10 +168,11 @@ def _pieces(text: str) -> tuple[Piece, ...]:
 def _changed(
     pieces: tuple[Piece, ...], first: int, last: int, place: Place, layers: Collection[str]
 ) -> tuple[Piece, ...]:
-    """Return the pieces with the characters ``first`` to ``last`` (of the text with all layers) turned into a place.
+    """Return the pieces after turning the characters ``first`` to ``last`` of the text with all layers into ``place``.
 
-    If one place contains the whole fragment, the new place goes into its new reading.  A place that contains only a
-    part of the fragment becomes part of the old reading, and the rest of its text is repeated in both readings.
+    If an earlier place contains the whole fragment, the new place is put into the new reading of the earlier place.  An
+    earlier place that contains only a part of the fragment becomes part of the old reading as a whole; the rest of its
+    text is then repeated in both readings.
     """
     before: list[Piece] = []
     within: list[Piece] = []

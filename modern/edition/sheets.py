@@ -1,9 +1,9 @@
-"""Proof sheets: for each page of the thesis, the readings that only the page can decide, as questions to tick.
+"""Proof sheets: for each page of the thesis, questions about the readings that only the printed page can decide.
 
-A *silent* reading is a variant of a card that no check detects (``fortran_src/silent.csv``, written by
-:mod:`modern.edition.weight`).  An :class:`Item` asks for one token of a card, with all its silent rivals.  Each silent
-reading and each open question about the text (``fortran_src/questions.toml``) is on exactly one sheet.
-:mod:`modern.edition.page_readings` reads a filled sheet.
+A *silent reading* is an altered card that no check detects (``fortran_src/silent.csv``, written by
+:mod:`modern.edition.weight`).  An :class:`Item` asks for one token of a card; its choices are the restored token and
+the silent readings of this token.  Each silent reading and each open question about the text
+(``fortran_src/questions.toml``) is on exactly one sheet.  :mod:`modern.edition.page_readings` reads a filled sheet.
 """
 
 from __future__ import annotations
@@ -34,7 +34,10 @@ DEPENDS: Mapping[str, str] = {
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """A possible reading of a token: its letter on the sheet, the token, and the whole card with this reading."""
+    """A possible answer: its letter on the sheet, the text of the token, and the whole card with this token.
+
+    If the choice is that the card does not exist, token and card are empty.
+    """
 
     letter: str
     token: str
@@ -45,8 +48,9 @@ class Choice:
 class Item:
     """A question about one token of a card.
 
-    ``first`` and ``last`` are the columns of the token, counted from 0, the last one excluded.  The first choice is the
-    restored reading.  ``variants`` are the keys of the silent readings that the other choices stand for.
+    ``first`` is the first column of the token, counted from 0, and ``last`` the column after it.  ``how`` is the kind
+    of the alteration, as in :class:`modern.edition.variants.Variant`.  The first choice is the restored reading.
+    ``variants`` has the keys of the silent readings, which are the other choices.
     """
 
     id: str
@@ -62,7 +66,10 @@ class Item:
 
 @dataclass(frozen=True, slots=True)
 class Question:
-    """An open question about the text of a page; the first answer makes the rows ``rows`` certain."""
+    """An open question about the text of a page.
+
+    ``depends`` says what depends on the answer.  If the first choice is the answer, the rows in ``rows`` are certain.
+    """
 
     id: str
     page: str
@@ -74,7 +81,7 @@ class Question:
 
 @dataclass(frozen=True, slots=True)
 class Sheet:
-    """A page of the thesis: its cards by number, the items by card, and the questions."""
+    """The proof sheet of a page of the thesis: the cards on the page, the items and the questions about it."""
 
     page: str
     program: str
@@ -84,7 +91,7 @@ class Sheet:
 
 
 def sheets(answered: Iterable[str] = ()) -> tuple[Sheet, ...]:
-    """Return a sheet for each page with an item or a question, without those whose ids are in ``answered``."""
+    """Return a sheet for each page that has items or questions, except those whose ids are in ``answered``."""
     done = set(answered)
     by_page: dict[tuple[str, str], tuple[list[Card], list[Item]]] = {}
     for name in programs.TEXTS:
@@ -106,7 +113,7 @@ def sheets(answered: Iterable[str] = ()) -> tuple[Sheet, ...]:
 
 
 def pages(name: str) -> Iterator[tuple[Card, str]]:
-    """Yield the cards of a program with the pages of the thesis."""
+    """Yield each card of a program with its page of the thesis."""
     lines = build(programs.text(name), programs.built_in(name).layers)
     return ((Card(number, line.text), line.page) for number, line in enumerate(lines, 1))
 
@@ -128,13 +135,13 @@ def questions() -> tuple[Question, ...]:
 
 
 def silent_readings() -> list[dict[str, str]]:
-    """Return the silent readings, the rows of ``fortran_src/silent.csv``."""
+    """Return the silent readings, which are the rows of ``fortran_src/silent.csv``."""
     text = programs.sources().joinpath("silent.csv").read_text(encoding="utf-8")
     return list(csv.DictReader(text.splitlines()))
 
 
 def _items(name: str) -> dict[int, list[Item]]:
-    """Return the items of a program by card. Silent readings of the same token are choices of one item."""
+    """Return the items of a program by the number of the card.  Silent readings of the same token share an item."""
     by_card = {statement.card: statement for statement in statements(name)}
     tokens: dict[tuple[int, int, int], list[tuple[str, str, str]]] = {}
     for row in silent_readings():
@@ -169,10 +176,10 @@ def _item(
 
 
 def _altered_token(was: str, reads: str, columns: Sequence[int]) -> tuple[int, int, str]:
-    """Return the columns of the token that differs between two readings of a card, and the altered text of the token.
+    """Return the token that differs between two readings of a card: its first character, its end, and its altered text.
 
-    A token is a run of letters and digits without a blank between them on the card; ``columns`` has the columns of the
-    characters.
+    A token is a run of letters and digits between which the card has no blank.  ``columns`` has the column of each
+    character on the card.
     """
     first = next((n for n, (a, b) in enumerate(zip(was, reads, strict=False)) if a != b), min(len(was), len(reads)))
     least = min(len(was), len(reads)) - first

@@ -1,9 +1,9 @@
-"""The documents, the excerpts that serve as witnesses, and the line of a document from which each witness line comes.
+"""The documents of the edition, and the excerpts of their OCR texts that serve as witnesses.
 
 The data are in ``fortran_src/SOURCES.toml``.  The project works from the OCR text of each document, but contains only
-excerpts of this text, which are the witnesses.  Each excerpt is recorded with its lines and a hash.
-:func:`check_files` verifies the hashes.  :func:`check_against` compares the excerpts with the whole text of a document
-if a user has it.
+the excerpts.  SOURCES.toml records a hash of each excerpt, and the lines of the document from which its lines were
+copied.  :func:`check_files` verifies the hashes.  For a user who has the whole text of a document,
+:func:`check_against` compares the excerpts with this text.
 """
 
 import hashlib
@@ -18,7 +18,11 @@ from modern.edition.apparatus import PAGE_MARK, ApparatusError
 
 @dataclass(frozen=True, slots=True)
 class Document:
-    """A document with the number of its lines and, for each page, its name, first and last line."""
+    """A document, as SOURCES.toml describes it.
+
+    ``bytes``, ``characters`` and ``lines`` are the size of its OCR text.  ``pages`` has the name, the first and the
+    last line of each page.
+    """
 
     id: str
     author: str
@@ -42,7 +46,8 @@ class Document:
 class Stretch:
     """A range of lines of a witness, and the lines of the document from which they were copied.
 
-    With ``part``, the witness has only some of the words of each line.
+    ``at`` is the number of the first line in the document.  If ``part``, the witness has only some of the words of each
+    line.
     """
 
     first: int
@@ -53,7 +58,7 @@ class Stretch:
 
 @dataclass(frozen=True, slots=True)
 class Excerpt:
-    """A witness: the id of its text, its file, its document, its hash and its lines."""
+    """An excerpt that is the witness of a text: the id of the text, file, document, hash, and the copied lines."""
 
     text: str
     file: str
@@ -62,7 +67,10 @@ class Excerpt:
     stretches: tuple[Stretch, ...]
 
     def line(self, witness_line: int) -> int | None:
-        """Return the document's line for a witness line, or None for a blank line between two stretches."""
+        """Return the number of the document's line from which a witness line was copied.
+
+        Return None for a blank line between two stretches.
+        """
         for stretch in self.stretches:
             if stretch.first <= witness_line <= stretch.last:
                 return stretch.at + witness_line - stretch.first
@@ -71,7 +79,10 @@ class Excerpt:
 
 @dataclass(frozen=True, slots=True)
 class Transcription:
-    """Another transcription of a document.  ``file`` is its collation, with a hash, or empty if there is none."""
+    """Another transcription of a document.
+
+    ``file`` is the file of its collation, and ``sha256`` the hash of this file.  Both are empty without a collation.
+    """
 
     id: str
     document: str
@@ -87,8 +98,8 @@ class Transcription:
 class Sources:
     """The contents of SOURCES.toml.
 
-    ``decks`` are the data decks that support emendations, with their hashes.  ``layered`` are the programs with one
-    optional layer applied: program, layer and the hash of their cards.
+    ``decks`` has the file and the hash of each data deck that supports an emendation.  ``layered`` has the hash of the
+    cards of each program with one optional layer: program, layer, hash.
     """
 
     documents: tuple[Document, ...]
@@ -101,11 +112,11 @@ class Sources:
         return next(document for document in self.documents if document.id == name)
 
     def collated(self, document: str) -> tuple[Transcription, ...]:
-        """Return the transcriptions of a document that are witnesses, because their collations are in the project."""
+        """Return the transcriptions of a document whose collations are in the project."""
         return tuple(entry for entry in self.transcriptions if entry.document == document and entry.file)
 
     def excerpt(self, text: str) -> Excerpt:
-        """Return the excerpt that is the witness of a text.  Raises ApparatusError."""
+        """Return the excerpt that is the witness of a text.  Raise ApparatusError if there is none."""
         for excerpt in self.excerpts:
             if excerpt.text == text:
                 return excerpt
@@ -114,6 +125,7 @@ class Sources:
 
 @cache
 def sources() -> Sources:
+    """Return the contents of SOURCES.toml."""
     data = tomllib.loads(files("fortran_src").joinpath("SOURCES.toml").read_text(encoding="utf-8"))
     return Sources(
         tuple(
@@ -146,7 +158,7 @@ def sources() -> Sources:
 
 
 def read(file: str) -> str:
-    """Return a data file by its path in the project, in a checkout or an installed wheel."""
+    """Return the text of a data file, given by its path in the project."""
     package, *parts = file.split("/")
     return files(package).joinpath(*parts).read_text(encoding="utf-8")
 
@@ -158,8 +170,9 @@ def digest(text: str) -> str:
 
 
 def check_files() -> Iterator[tuple[str, bool, str]]:
-    """Yield (file, whether its hash is right, message) for each excerpt, for each collation, and for all files of
-    ``grounds`` together.
+    """Check the hash of each excerpt and each collation, and the hashes of all files of ``grounds`` together.
+
+    Yield triples: the name of the file, True if the hash is right, and a message.
     """
     table = sources()
     for excerpt in table.excerpts:
@@ -175,9 +188,10 @@ def check_files() -> Iterator[tuple[str, bool, str]]:
 
 
 def check_against(name: str, text: str) -> Iterator[tuple[str, bool, str]]:
-    """Compare the file ``name``, the whole text of a document, with the recorded length and excerpts of the document.
+    """Compare the whole text of a document, the contents of the file ``name``, with its recorded size and excerpts.
 
-    Yield (subject, whether it agrees, message).  Raise ApparatusError if the text is not that of a document.
+    Yield triples: the subject, True if it agrees, and a message.  Raise ApparatusError if the text is not that of a
+    document.
     """
     sha = hashlib.sha256(text.encode()).hexdigest()
     table = sources()
@@ -211,6 +225,9 @@ def _same(lines: list[str], whole: list[str], stretch: Stretch, number: int) -> 
 
 
 def place(text: str, line: str) -> str:
-    """Return the place of a witness line in its document, such as ``line 17 of thesis``; empty for an inserted card."""
+    """Return the place of a line in its document, such as ``line 17 of butler-1963``.
+
+    Return an empty text for an inserted card.
+    """
     document_line = sources().excerpt(text).line(int(line)) if line.isdigit() else None
     return f"line {document_line} of {sources().excerpt(text).document}" if document_line else ""

@@ -1,15 +1,16 @@
 """Align the lines of another transcription of the listings with the cards of the edition.
 
-A transcription may have lost lines, and its pages and columns may stand in another order.  Therefore the alignment is
-not one monotone sequence.  A Viterbi search assigns a card to each line: following the order of the cards is free,
-skipping cards costs a little, and a jump to any other card costs as much as a short line gains.  A line may also belong
-to no card (a page number, a running head), two lines may make one card (a hyphenated line), and one line may hold two
-cards.  A line that holds more is first divided where its characters align with the cards.  Statement numbers that
-form a separate column are joined with their statements afterwards.  Line numbers and columns 73 to 80 are removed if
-the rest resembles the cards more.  A run of cards counts only if it gains more than a jump costs, and if its lines
-resemble no other cards equally well.
+A transcription may have lost lines, and its pages and columns may be in another order.  A Viterbi search therefore
+assigns cards to lines.  A line that resembles a card gains points.  Following the order of the cards costs nothing,
+skipping cards costs a little, and a jump to any other card costs as many points as a short line gains.
 
-Lines are compared after characters that may be confused have been replaced by one representative
+A line may also belong to no card (a page number, a running head).  Two lines may belong to one card (a hyphenated
+line), and one line to two cards.  A line with more than two cards is divided first, by aligning its characters with the
+cards.  Statement numbers that form a separate column are joined with their statements afterwards.  Line numbers and
+columns 73 to 80 are removed if the rest resembles the cards more.  A run of consecutive cards is accepted only if it
+gains more points than a jump costs, and if its lines resemble no other cards equally well.
+
+Before lines are compared, characters that may be confused are replaced by one character that represents them
 (:mod:`modern.edition.alignment`), so that misreadings of the expected kind cost nothing.
 """
 
@@ -27,10 +28,12 @@ from modern.edition.readings import solid, table
 
 # A jump costs JUMP.  Skipping k cards costs SKIP + k * SKIP_CARD, for at most FARTHEST cards.
 JUMP, SKIP, SKIP_CARD, FARTHEST = 14.0, 0.7, 0.3, 25
-# The number of card texts with which a line is compared, and the share of differing characters above which it is no
-# match.  A line that differs more than POOR from every card may be a part of a card or hold two.
+# CANDIDATES is the number of card texts with which a line is compared.  If the share of differing characters exceeds
+# NO_MATCH, the line does not resemble the card.  If it exceeds POOR for every card, the line may be a part of a card or
+# contain two.
 CANDIDATES, NO_MATCH, POOR = 8, 0.45, 0.15
-# A line with more characters than any two cards is divided if it has an anchor for every FEW characters.
+# A line with more than LONGEST characters, which is more than any two cards have, is divided if it has an anchor
+# (eight characters that occur on only one card) for every FEW characters.
 LONGEST, FEW = 132, 20
 _MARKS = sorted((p.witness for p in table() if p.cls == "noise" and not p.lemma and len(p.witness) > 1), reverse=True)
 _NOISE = re.compile("|".join(map(re.escape, _MARKS)) + r"|\\[A-Za-z]+\*?|[\\$}{`\u200b\ufeff]|^\s*[-·•*]\s+")
@@ -46,7 +49,10 @@ _IDENTIFICATION = re.compile(r"(?=.{73,80}$)(.{72}).*\d\s*$")
 
 @dataclass(frozen=True, slots=True)
 class EditionCard:
-    """A card of a built-in program: its number in the deck, its place, and its characters that are not blank."""
+    """A card of a built-in program: its number in the deck, its name, and its characters without blanks.
+
+    ``label`` is the statement number, and ``text`` the rest of the card.
+    """
 
     program: str
     number: int
@@ -61,7 +67,10 @@ class EditionCard:
 
 @dataclass(frozen=True, slots=True)
 class Span:
-    """Lines ``lines`` (indices into the cleaned transcription) that hold ``cards`` (indices into the edition)."""
+    """Consecutive lines that contain consecutive cards, and the points that they gain.
+
+    ``lines`` are indices of lines in the transcription after cleaning, and ``cards`` indices of cards in the edition.
+    """
 
     lines: tuple[int, ...]
     cards: tuple[int, ...]
@@ -83,7 +92,8 @@ def edition_cards() -> tuple[EditionCard, ...]:
 def read_lines(text: str) -> list[tuple[int, str]]:
     """Return the lines of a transcription with their numbers, without blank lines, page marks and typesetting marks.
 
-    If most letters outside of prose are small, as in a retyping, they become capitals.  A form feed ends no line.
+    If most letters outside of prose are lower-case, as in a retyped text, all letters become capitals.  A form feed
+    does not end a line.
     """
     raw_lines = re.split(r"\r\n|\r|\n", text)
     letters = [c for line in raw_lines if not _PROSE.search(line) for c in line if c.isalpha()]
@@ -97,7 +107,7 @@ def read_lines(text: str) -> list[tuple[int, str]]:
 
 
 def _forms(lines: list[tuple[int, str]]) -> Iterator[list[tuple[int, str]]]:
-    """Yield the lines as they are, and without line numbers, columns 73 to 80, or both if most lines have them."""
+    """Yield the lines unchanged, and also without line numbers, columns 73 to 80, or both, if most lines have them."""
     yield lines
     numbers = [_LINE_NUMBER.match(line) for _, line in lines]
     rising, before, line_before = 0, 0, 0
@@ -121,9 +131,9 @@ def _without_identification(lines: list[tuple[int, str]]) -> Iterator[list[tuple
 
 
 def align(text: str) -> dict[int, tuple[str, tuple[int, ...]]]:
-    """Return the characters and the line numbers of the transcription for each card, by its index in the edition.
+    """Return, for each card that a transcription contains, its characters without blanks and the numbers of its lines.
 
-    A card that the transcription lacks is absent from the result.  The characters are not blank.
+    The keys are the indices of the cards in the edition.
     """
     every = edition_cards()
     index = _Index(every)
@@ -157,7 +167,7 @@ def _unhyphenated(line: str, continues: bool) -> str:
 
 
 class _Index:
-    """The folded texts of the cards, with and without their numbers, found by the trigrams that they contain."""
+    """An index that finds cards, with or without their statement numbers, by the trigrams of their folded texts."""
 
     def __init__(self, cards: Sequence[EditionCard]) -> None:
         self.cards = cards
@@ -171,8 +181,9 @@ class _Index:
                 self.postings[gram].append(text)
 
     def candidates(self, line: str) -> list[tuple[str, float]]:
-        """Return the card texts that are most similar to a folded line, with their gains.  A gain is the length of the
-        text minus two for each difference.
+        """Return the card texts that are most similar to a folded line, with the points that each gains.
+
+        The points are the number of characters minus two for each difference.
         """
         shared: Counter[str] = Counter()
         for gram in set(_trigrams(line)):
@@ -186,7 +197,7 @@ class _Index:
         return gains
 
     def fused(self, line: str) -> Iterator[tuple[tuple[int, ...], float]]:
-        """Yield each pair of consecutive cards of which a folded line may consist, with its gain."""
+        """Yield each pair of consecutive cards that a folded line may contain, with the points that it gains."""
         starts = {
             n for text, owners in self.owners.items() if len(text) > 3 and line.startswith(text[:4]) for n in owners
         }
@@ -198,7 +209,10 @@ class _Index:
                     yield (n, n + 1), len(text) - 2.0 * differing
 
     def divided(self, number: int, line: str) -> Iterator[tuple[int, str]]:
-        """Divide a line that holds many cards.  Eight characters that occur only once in the cards identify a card."""
+        """Divide a line that contains more than two cards, and yield the pieces with the number of the line.
+
+        Eight characters that occur only once in the cards identify a card.  They are called an anchor.
+        """
         text = solid(line)
         if len(text) <= LONGEST:
             yield number, line
@@ -237,9 +251,7 @@ class _Node:
 
 
 def _best_path(lines: Sequence[str], index: _Index) -> list[Span]:
-    """Return the spans of the best path through all lines, by the Viterbi search that the docstring of the module
-    describes.
-    """
+    """Return the spans of the best path through all lines by the Viterbi search (see the docstring of the module)."""
     # For each card, the best path that ends with it; before the current line, and before the line before that.
     ends: dict[int, _Node] = {}
     earlier: dict[int, _Node] = {}
@@ -271,7 +283,7 @@ def _best_path(lines: Sequence[str], index: _Index) -> list[Span]:
 
 
 def _span_runs(spans: Sequence[Span]) -> Iterator[list[Span]]:
-    """Yield the runs of spans between the jumps of a path."""
+    """Divide a path at its jumps, and yield the spans of each part."""
     run: list[Span] = []
     for span in spans:
         if run and not 0 < span.cards[0] - run[-1].cards[-1] <= FARTHEST:
@@ -283,7 +295,7 @@ def _span_runs(spans: Sequence[Span]) -> Iterator[list[Span]]:
 
 
 def _is_clear(run: Sequence[Span], lines: Sequence[str], index: _Index) -> bool:
-    """Return True if a run gains more than a jump costs, and its lines resemble no other cards equally well."""
+    """Return True if spans gain more points than a jump costs, and their lines resemble no other cards equally well."""
     if sum(span.gain for span in run) <= JUMP:
         return False
 
@@ -303,7 +315,6 @@ def _is_clear(run: Sequence[Span], lines: Sequence[str], index: _Index) -> bool:
 
 
 def _extended(ends: Mapping[int, _Node], span: Span) -> _Node:
-    """Return the best path that ends with a span."""
     best: _Node | None = None
     score = -JUMP / 2
     if ends:
@@ -342,7 +353,7 @@ def _join_labels(
     texts: dict[int, tuple[str, tuple[int, ...]]],
     every: Sequence[EditionCard],
 ) -> None:
-    """Put each statement number back before its statement if the OCR put the numbers into a separate column."""
+    """Put statement numbers before their statements if the OCR has put the numbers into a separate column."""
     line_of = {number: n for n, (number, _) in enumerate(numbered)}
     lacking = [
         n for n in sorted(texts) if every[n].label and not folded(texts[n][0]).startswith(folded(every[n].label)[:2])
@@ -372,7 +383,10 @@ def _runs(numbers: Sequence[int]) -> Iterator[list[int]]:
 
 
 def _common(a: Sequence[str], b: Sequence[str], likeness: float) -> list[tuple[int, int]]:
-    """Align two sequences of texts.  Return index pairs of texts with at least this ``likeness`` (1 if equal)."""
+    """Align two sequences of texts.  Return the indices of aligned texts, whose likeness is at least ``likeness``.
+
+    The likeness of equal texts is 1.
+    """
     best = [[0.0] * (len(b) + 1) for _ in range(len(a) + 1)]
     alike = [[1 - 1.5 * distance(x, y) / max(len(x), len(y)) for y in b] for x in a]
     alike = [[value if value >= likeness else 0.0 for value in row] for row in alike]

@@ -1,4 +1,4 @@
-"""Printed results with which a restored program is compared, and the comparison."""
+"""Compare the results of a restored program with the printed results of the original."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -12,15 +12,17 @@ from emulator.machine.operator import FromFile
 from emulator.machine.result import Options
 from modern.edition.reproduce import EXACT, SPACING, compare
 
-# The most statements of a run; the longest printed result takes 15,000.
+# The greatest number of statements of a run.  The run with the longest printed result executes 15,000.
 LIMIT = 30_000
 
 
 @dataclass(frozen=True, slots=True)
 class Trial:
-    """Data cards with the printed result: sense switches, answers of the operator, and the punched lines.
+    """Data cards of a program and the punched lines that the document prints for them.
 
-    ``in_order`` is False if the parts of a result may be in another order than the printed ones.
+    ``switches`` are the sense switches that are on, and ``operator`` the text of a file of the operator's actions.
+    ``final`` is True if the lines hold a hull, and False for a deck for the next program.  ``in_order`` is False if the
+    parts of a result may be in another order than the printed ones.
     """
 
     cards: tuple[str, ...]
@@ -33,14 +35,14 @@ class Trial:
 
 @dataclass(frozen=True, slots=True)
 class Job:
-    """A damaged program, and the printed results of the undamaged one."""
+    """A damaged program, and the printed results of the undamaged program."""
 
     cards: tuple[str, ...]
     trials: tuple[Trial, ...] = ()
 
 
 def score(lines: tuple[str, ...], trials: tuple[Trial, ...]) -> int:
-    """Return the number of printed lines that a program reproduces, plus 1000 for each result that it reproduces whole.
+    """Return the number of printed lines that a program reproduces, plus 1000 for each completely reproduced result.
 
     Return -1 if the program does not compile.
     """
@@ -57,7 +59,7 @@ def _compiled(lines: tuple[str, ...]) -> Program | None:
 
 @lru_cache(8192)
 def score_of(lines: tuple[str, ...], trial: Trial) -> int:
-    """Return the score of one result."""
+    """Return the score (:func:`score`) of a program for one printed result."""
     program = _compiled(lines)
     if program is None:
         return -1

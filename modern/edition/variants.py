@@ -1,4 +1,4 @@
-"""Variants of the listings.  Each one alters a token as an OCR program or a typist might have altered it.
+"""Generate variants of the listings.  A variant has one token altered as an OCR program or a typist might alter it.
 
 The alterations are:
 
@@ -6,9 +6,9 @@ The alterations are:
   number in its statement.
 * A name is replaced, in turn, by each other name of its statement with the same mode (fixed or floating point).
 * An operator is replaced by each other operator in turn.
-* Each digit of a constant is changed by one, up and down.
+* Each digit of a constant is increased and decreased by one.
 * A character is replaced by each character with which it may be confused (``fortran_src/apparatus/confusables.toml``).
-* The counts and separators of a FORMAT, and one letter of every literal, are changed.
+* The counts and separators of a FORMAT, and one letter of each of its literal texts, are changed.
 * Each card is left out once.
 
 :mod:`modern.edition.weight` runs the variants.
@@ -26,7 +26,7 @@ from modern.edition.readings import table
 
 _NAME = re.compile(r"[A-Z][A-Z0-9]*")
 _NUMBER = re.compile(r"\d+")
-# The positions at which each kind of statement refers to other statement numbers.
+# For each kind of statement, a pattern that finds the numbers of other statements in it.
 LABELS = {
     "if": re.compile(r"\)(\d+(?:,\d+)*)$"),
     "if_switch": re.compile(r"\)(\d+(?:,\d+)*)$"),
@@ -50,10 +50,12 @@ FUNCTIONS = ("SQRT",)
 
 @dataclass(frozen=True, slots=True)
 class Variant:
-    """A card of a listing, counted from 1, with another reading.
+    """A card of a listing with an altered statement.
 
-    ``how`` is ``number``, ``name``, ``operator``, ``constant``, ``character``, ``format`` or ``card``.  ``was`` and
-    ``reads`` are the statement before and after, without blanks; ``reads`` is empty if the card is left out.
+    ``card`` is the number of the card, from 1, and ``place`` its name, such as ``147+1``.  ``how`` is the kind of the
+    alteration: ``number``, ``name``, ``operator``, ``constant``, ``character``, ``format`` or ``card``.  ``was`` and
+    ``reads`` are the statement before and after the alteration, without blanks.  ``reads`` is empty if the card is left
+    out.
     """
 
     program: str
@@ -70,7 +72,10 @@ class Variant:
 
 @dataclass(frozen=True, slots=True)
 class Statement:
-    """A statement of a listing with its place, and the spans of its text that are numbers of other statements."""
+    """A statement of a listing with the name of its card.
+
+    ``labels`` has the first and the last index (exclusive) of each number of another statement in its text.
+    """
 
     source: Source
     place: str
@@ -157,7 +162,7 @@ def _steps(number: str) -> Iterator[str]:
 
 
 def _alike(name: str) -> set[str]:
-    """Return the names in the listings that differ from ``name`` in one character; none for a one-letter name."""
+    """Return the names in the listings that differ from ``name`` in one character.  A name of one letter has none."""
     if len(name) < 2:
         return set()
     return {known for known in _names() if len(known) == len(name) and sum(map(str.__ne__, name, known)) == 1}
@@ -172,14 +177,14 @@ def _names() -> frozenset[str]:
 
 @cache
 def _confused(char: str) -> tuple[str, ...]:
-    """Return the card characters for which this one may be misread, or which may be misread as this one."""
+    """Return the characters of cards with which a character may be confused."""
     pairs = [(p.witness, p.lemma) for p in table() if p.cls == "confusable" and len(p.witness) == len(p.lemma) == 1]
     partners = [b for a, b in (*pairs, *((b, a) for a, b in pairs)) if a == char]
     return tuple(dict.fromkeys(c for c in partners if c in CHARACTERS.difference(RECORD_MARKS)))
 
 
 def _formats(text: str) -> Iterator[str]:
-    """Yield a FORMAT with one change: a count up or down by one, another first letter of a text, another separator."""
+    """Yield a FORMAT with one change: of a count by one, of the first letter of a literal text, or of a separator."""
     at = 0
     while at < len(text):
         count = re.compile(r"(\d+)H").match(text, at)
@@ -207,7 +212,10 @@ def _formats(text: str) -> Iterator[str]:
 
 
 def deck_with(name: str, card: int, reads: str) -> Deck:
-    """Return the deck of a built-in program with another reading of one card, or without it if ``reads`` is empty."""
+    """Return the deck of a built-in program with the statement ``reads`` on one card.
+
+    If ``reads`` is empty, the deck lacks the card.
+    """
     deck = programs.committed(name)
     old = next(s.source for s in statements(name) if s.card == card)
     word = "FORMAT " if old.kind == "format" else ""

@@ -1,4 +1,4 @@
-"""Write the results of the weight of evidence: a report, a table of cards and the undetected variants."""
+"""Write the results of the weight of evidence: a report, a table of all cards, and a table of undetected variants."""
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -18,7 +18,7 @@ CONFIRMING = ("print", "machine", "equation", "sibling")
 def write_weight(folder: Path, answers: Mapping[str, str]) -> str:
     """Write ``report.md``, ``cards.csv`` and ``silent.csv`` to a folder, and return the text of the report.
 
-    ``answers`` gives, for each judged variant's key, the first check that detects it, ``nothing`` or ``no change``.
+    ``answers`` maps the key of each judged variant to the first check that detects it, ``nothing`` or ``no change``.
     """
     text = report(answers)
     write_text(str(folder / "report.md"), text)
@@ -29,8 +29,10 @@ def write_weight(folder: Path, answers: Mapping[str, str]) -> str:
 
 
 def cards_table(answers: Mapping[str, str]) -> Iterator[tuple[str, ...]]:
-    """Yield a row for each card: its statement, the number of its variants that each check detects, its formula, and
-    the number of similar cards.
+    """Yield the header of the table of cards, then a row for each card.
+
+    A row has the statement, the number of its variants that each check detects, the formula that it computes, and the
+    number of other cards of the same form.
     """
     yield ("program", "card", "place", "statement", *NOTICED, "no change", "formula", "alike")
     for variant, count in by_card(answers):
@@ -41,10 +43,10 @@ def cards_table(answers: Mapping[str, str]) -> Iterator[tuple[str, ...]]:
 
 
 def unvouched(answers: Mapping[str, str]) -> list[Variant]:
-    """Return one variant of each card that has two or more undetected variants and no variant that a check of
-    ``CONFIRMING`` detects.
-    """
+    """Return one variant of each card that no check confirms.
 
+    Such a card has two or more undetected variants and no variant that a check of ``CONFIRMING`` detects.
+    """
     return [
         variant
         for variant, count in by_card(answers)
