@@ -7,6 +7,7 @@ to a limit that depends on the expected contents.
 
 import os
 import re
+import secrets
 import stat
 import sys
 import tempfile
@@ -188,14 +189,14 @@ def _writing(path: str, standard: Any, open_arguments: dict[str, str], durable: 
             with target.open(**open_arguments) as file:  # type: ignore[call-overload]
                 yield file
             return
-        mode = target.stat().st_mode & 0o777 if target.exists() else 0o666 & ~_umask()
-        handle, temporary = tempfile.mkstemp(prefix=UNFINISHED, dir=target.parent)
-        with os.fdopen(handle, **open_arguments) as file:  # type: ignore[call-overload]
+        temporary = str(target.with_name(UNFINISHED + secrets.token_hex(8)))
+        with open(temporary, **open_arguments) as file:  # type: ignore[call-overload]
             yield file
             if durable:
                 file.flush()
                 os.fsync(file.fileno())
-        os.chmod(temporary, mode)
+        if target.exists():
+            os.chmod(temporary, target.stat().st_mode & 0o777)
         os.replace(temporary, target)
         temporary = ""
     except OSError as error:
@@ -203,9 +204,3 @@ def _writing(path: str, standard: Any, open_arguments: dict[str, str], durable: 
     finally:
         if temporary and os.path.exists(temporary):
             os.unlink(temporary)
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

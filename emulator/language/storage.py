@@ -65,9 +65,7 @@ class Storage:
         return (entry for entry in self.entries if entry.shape)
 
     def entry_of(self, address: int) -> Entry:
-        """Return the variable or array that owns a storage field.  Raise KeyError for an address outside the data."""
-        if not 0 <= address < self.fields:
-            raise KeyError(address)
+        """Return the entry of the map to which a storage field belongs."""
         return self.entries[bisect_right(self.entries, address, key=attrgetter("first")) - 1]
 
     def fields_of(self, text: str) -> range:
@@ -90,12 +88,9 @@ class Storage:
 
     def name_of(self, address: int) -> str:
         """Return the name of the variable, element or constant in a field: ``NE``, ``X(3)`` or ``constant 4.``."""
-        if self.fields <= address < self.length:
+        if address >= self.fields:
             return f"constant {self.immediates[address - self.fields][1]}"
-        try:
-            entry = self.entry_of(address)
-        except KeyError:
-            return f"field {address}, outside the data"
+        entry = self.entry_of(address)
         return entry.element(address - entry.first)
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from emulator.errors import CardError, DeckError
 from emulator.language.cards import COLUMNS, RECORD_MARK, Card, Deck, check_characters, read_line
 from emulator.language.objectcode import Line, Program
-from emulator.machine.endings import Ending, Kind, Mode, Notice, stopped
+from emulator.machine.endings import Ending, Kind, Mode, Notice, decided, stopped
 from emulator.machine.forms import Input, Input1962, Layout, NoField, Output, Output1962, TooLong
 from emulator.machine.result import PUNCH_COLUMNS, TYPEWRITER_COLUMNS, Event, Options, Uncut
 from emulator.machine.state import FLOATING, State
@@ -101,16 +101,12 @@ class Devices:
         self._lines = 0
         self._format = 0
 
-    def line_at(self, pc: int) -> Line:
-        """Return the FORTRAN statement to which an instruction belongs."""
-        return self.program.line_at(pc)
-
     def begin(self, address: int) -> None:
         """Begin an input or output statement.  ``address`` is the index of its verb (READ, PUNCH, ...).
 
         Raise Ended, LineNeeded or DeckError.
         """
-        here = self.line_at(self.state.at)
+        here = self.program.line_at(self.state.at)
         verb = self.program.verbs[address]
         number = self.program.code[self.state.at].second
         self.verb, self._format = verb, self.program.formats[number][0]
@@ -323,9 +319,8 @@ class Devices:
         text = self._record(RECORD_MARK.split(line)[0], TYPEWRITER_COLUMNS)
         self.characters += len(text) + 1
         # A typed line is often a message; the last decision shows why the program typed it.
-        decision = self.state.decision
-        last = self.line_at(decision - 1) if decision else None
-        self.events.append(Event("type", text, self.line_at(self.state.at), last))
+        last = decided(self.program, self.state.decision)
+        self.events.append(Event("type", text, self.program.line_at(self.state.at), last))
 
     def _record(self, line: str, room: int) -> str:
         """Return a card or line truncated to the columns of its device, and add its cost to the work of the run."""
@@ -342,7 +337,7 @@ class Devices:
             self.type(f"ERROR {code}")
 
     def _count_error(self, code: str) -> None:
-        card = self.line_at(self.state.at).place.card
+        card = self.program.line_at(self.state.at).place.card
         self.errors[code, card] = self.errors.get((code, card), 0) + 1
         self.state.work += self.state.owe(ERROR)
 

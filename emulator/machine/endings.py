@@ -171,20 +171,12 @@ def ended_by(
     subscripts: tuple[int, ...],
     costly: int,
 ) -> Ending:
-    """Return the ending of a run for the reason with which the interpreter or the kernel returned.
+    """Return the ending of a run for the reason, such as AT_BOUNDS, with which the interpreter or the kernel returned.
 
-    Parameters
-    ----------
-    reason
-        AT_STOP, AT_COSTLY, AT_UNDEFINED, AT_BOUNDS, AT_OUTSIDE or AT_SELECT.
-    at, decision
-        The instruction at which the run ended, and the last IF or computed GO TO as in :func:`decided`.
-    address, kind
-        The storage field that the instruction uses, and for AT_UNDEFINED the kind of the field.
-    subscripts
-        For AT_BOUNDS the subscripts, for AT_SELECT the value of the variable.
-    limit, costly
-        The limit of the run, and the work of its costly operations.
+    The run ended at the instruction ``at``, after the IF or computed GO TO with the number ``decision``.  ``address``
+    is the storage field that the instruction uses.  For AT_UNDEFINED, ``kind`` is the kind of this field.
+    ``subscripts`` holds the subscripts for AT_BOUNDS, and the value of the variable for AT_SELECT.  ``costly`` is the
+    work of costly operations.
     """
     if reason == AT_STOP:
         return Ending("stop" if program.code[at].second == 0 else "end")

@@ -117,14 +117,9 @@ class Session:
         self._checkpoint: _Checkpoint | None = None
 
     @property
-    def listed(self) -> list[int]:
-        """The fields of the last input or output statement, if statements are traced or stepped."""
-        return self.devices.listed
-
-    @property
     def here(self) -> Line:
         """The statement at which, or before which, the machine has stopped."""
-        return self.halt.line if self.halt else self.devices.line_at(min(self.state.pc, len(self.program.code) - 1))
+        return self.halt.line if self.halt else self.program.line_at(self.state.pc)
 
     def advance(self, goal: int) -> Halt | Ending | None:
         """Run until the work done reaches ``goal`` or the limit (:class:`emulator.machine.result.Options`).
@@ -276,7 +271,7 @@ class Session:
     def _wait_for_line(self, trouble: str) -> None:
         """Halt until the operator types a line; ``trouble`` says why the previous line was invalid, if it was."""
         self._checkpoint = _Checkpoint(self) if self.retypes else None
-        self.halt = Halt("accept", self.devices.line_at(self.state.at), trouble=trouble)
+        self.halt = Halt("accept", self.program.line_at(self.state.at), trouble=trouble)
 
     def _interpret(self, goal: int) -> int:
         traced = self.tracer is not None or self._steps > 0 or bool(self.breakpoints or self.watched)
@@ -295,7 +290,7 @@ class Session:
         elif reason == interpreter.AT_FINISH:
             self.devices.finish()
         elif reason == interpreter.AT_STATEMENT:
-            self._watch(self.devices.line_at(state.at))
+            self._watch(self.program.line_at(state.at))
         elif reason == interpreter.AT_FUNCTION:
             name = self.program.functions[address]
             self._pay(name, state.fac)
@@ -309,7 +304,7 @@ class Session:
         elif reason == interpreter.AT_EVENT:
             self.devices.error(f"E{state.event}")
         elif reason == interpreter.AT_PAUSE:
-            self.halt = Halt("pause", self.devices.line_at(state.at), self.program.code[state.at].second)
+            self.halt = Halt("pause", self.program.line_at(state.at), self.program.code[state.at].second)
         else:
             raise self._ended_by(reason)
 

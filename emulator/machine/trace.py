@@ -50,7 +50,7 @@ def effect(machine: Session, line: Line) -> str:
     if line.effect == "test fixed":
         return str(state.fixed)
     if line.effect == "list":
-        return ", ".join(f"{name(address)} = {contents(machine, address)}" for address in machine.listed)
+        return ", ".join(f"{name(address)} = {contents(machine, address)}" for address in machine.devices.listed)
     return ""
 
 

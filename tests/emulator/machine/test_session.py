@@ -179,7 +179,7 @@ def test_an_endless_list_does_not_use_more_and_more_memory() -> None:
     lines = ["N=9999", "PUNCH 90,(K,K=1,N)", "90 FORMAT(I5)", "END"]
     made = Machine(program(*lines), deck_from_lines("d", ()), Options(limit=50_000))
     made.run(output=lambda events: None)
-    assert made.listed == []
+    assert made.devices.listed == []
 
 
 def test_a_second_attention_stops_an_endless_list() -> None:
