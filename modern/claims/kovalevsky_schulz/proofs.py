@@ -114,7 +114,7 @@ def choice_of_q() -> Proof:
     n, p, q, r = (point(name, 3) for name in "npqr")
     products = [dot(n, minus(p, corner)) for corner in (q, r)]
     return Proof(
-        "a point sees a face from all points of the face or from none",
+        "the scalar product of a face's normal with the way to P is the same from all points Q of the face",
         "The normal is perpendicular to the way from one point of the face to another. So the sign of its product with "
         "the way to P, which tells acute from obtuse angles, is the same for all of them.",
         (
