@@ -9,13 +9,14 @@ from emulator.errors import CardError, DeckError, EmulatorError, OperatorError
 from emulator.language.cards import Deck, deck_from_lines, deck_from_text, read_deck
 from emulator.language.compiler import compile_deck
 from emulator.language.objectcode import Program
+from emulator.language.parser import parse
 from emulator.machine.machine import Machine
 from emulator.machine.operator import PUNCHED, FromFile
 from emulator.machine.result import Event, Result
 from modern.cli.shared.console import DIFFERS, OK, UsageError, check_one_standard_input, print_notes
 from modern.cli.shared.inputs import deck_for
 from modern.cli.shared.operators import attended
-from modern.cli.shared.programs import load_program_and_data, machine_options
+from modern.cli.shared.programs import machine_options, source_deck
 from modern.cli.shared.run_output import print_run, streaming, tracing
 from modern.edition import programs
 from modern.thesis.job import Refusals
@@ -24,9 +25,10 @@ from modern.thesis.job import Refusals
 def main(args: argparse.Namespace) -> int:
     check_one_standard_input(args)
     options = replace(machine_options(args), hopper="any")
-    jobs = [] if args.program is None else [load_program_and_data(args)]
-    if jobs:
-        jobs = [(program, input_deck(args, data)) for program, data in jobs]
+    jobs = []
+    if args.program is not None:
+        source = source_deck(args)
+        jobs = [(compile_deck(source), input_deck(args, Deck(source.source, parse(source).data)))]
     elif not args.operator or args.operator == "none":
         raise UsageError("PROGRAM.f is missing; name a program, or a log that names one with --operator=FILE")
     refusals = Refusals()

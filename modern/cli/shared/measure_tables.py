@@ -67,9 +67,10 @@ def filled_row(label: int, hull: DigitalHull, voxel_volume: Fraction) -> Row:
 def measure_lines(measures: Measures, unit: str, corners: bool) -> Iterator[str]:
     """Yield the measures of a solid and of the hull of its corners or centres."""
     cubic, square = (f" {printable(unit)}^{power}" if unit else "" for power in (3, 2))
+    precision = f", to {AREA_DIGITS} digits" if len(measures.hull_area.as_tuple().digits) >= AREA_DIGITS else ""
     yield f"volume of the voxels: {_with_exact(measures.volume)}{cubic}"
     yield f"hull: volume {_with_exact(measures.hull_volume)}{cubic}"
-    yield f"hull: area {_plain(measures.hull_area)}{square}{_precision(measures.hull_area)}"
+    yield f"hull: area {_plain(measures.hull_area)}{square}{precision}"
     if corners:
         yield f"solidity {_with_exact(measures.solidity)}; convex deficiency {_with_exact(measures.deficiency)}{cubic}"
 
@@ -118,7 +119,3 @@ def _plain(number: Decimal) -> str:
     text = finite_decimal(Fraction(number))
     assert text is not None
     return text
-
-
-def _precision(area: Decimal) -> str:
-    return f", to {AREA_DIGITS} digits" if len(area.as_tuple().digits) >= AREA_DIGITS else ""

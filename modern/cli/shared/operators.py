@@ -1,4 +1,4 @@
-"""The operator of a run: a person at the terminal, a file or a log of answers, standard input, or nobody."""
+"""Choose the operator of a run: a person at the terminal, a file or a log of answers, standard input, or nobody."""
 
 import argparse
 import os

@@ -1,4 +1,4 @@
-"""The program and the machine that the arguments of a command describe."""
+"""Load the program and configure the machine that the arguments of a command request."""
 
 import argparse
 from typing import Literal
@@ -7,7 +7,6 @@ from emulator.errors import LowerCaseError
 from emulator.language.cards import Deck, read_deck
 from emulator.language.compiler import compile_deck
 from emulator.language.objectcode import Program
-from emulator.language.parser import parse
 from emulator.language.statements import capitals
 from emulator.machine.result import Options
 from emulator.numbers import DecimalNumbers, Numbers, numbers
@@ -47,12 +46,6 @@ def load_program(args: argparse.Namespace) -> Program:
     return compile_deck(source_deck(args))
 
 
-def load_program_and_data(args: argparse.Namespace) -> tuple[Program, Deck]:
-    """Return the compiled program and the deck of the data cards after its END. Raise EmulatorError."""
-    deck = source_deck(args)
-    return compile_deck(deck), Deck(deck.source, parse(deck).data)
-
-
 def machine_options(args: argparse.Namespace) -> Options:
     """Return the machine options that the arguments describe. Raise UsageError."""
     arithmetic = number_system(args.arithmetic, "--arithmetic")
@@ -64,7 +57,7 @@ def machine_options(args: argparse.Namespace) -> Options:
 
 
 def number_system(name: str, option: str) -> Numbers:
-    """Return the arithmetic that ``option`` names.  Raise UsageError if the name is unknown."""
+    """Return the arithmetic called ``name``.  Raise UsageError, which names the option, if the name is unknown."""
     try:
         return numbers(name)
     except ValueError as error:

@@ -1,4 +1,4 @@
-"""The output of a run: punched cards, typed lines, notes, the trace, and the profile of its time."""
+"""Write the output of a run: punched cards, typed lines, notes, the trace, and the profile of its time."""
 
 import argparse
 import sys

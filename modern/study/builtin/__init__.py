@@ -1,4 +1,4 @@
-"""The built-in studies by name.  Each module of this package defines one study, as :class:`Study` describes."""
+"""Find the built-in studies by name.  Each module of this package defines one study, as :class:`Study` describes."""
 
 from importlib import import_module
 from pkgutil import iter_modules
@@ -12,8 +12,8 @@ from modern.study.store import Store
 class Study(Protocol):
     """The functions and constants that each module of :mod:`modern.study.builtin` defines.
 
-    TITLE: one line for ``--list``.  SAMPLES: the default of ``--samples``; the docstring of the module says what is
-    counted.  plan: makes the plan with the given number of samples.  report: makes the report from the finished rows.
+    TITLE: one line for ``--list``.  SAMPLES: the default of ``--samples``; the docstring of the module says what this
+    number counts.  plan: makes the plan for a number of samples.  report: makes the report from the finished rows.
     """
 
     TITLE: str

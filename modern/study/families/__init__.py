@@ -43,7 +43,10 @@ FAMILIES: Mapping[str, Family] = {
 
 
 def family_of(name: str) -> Family:
-    """Return the family of that name, or the function ``module:function``.  Raise PlanError if it is unknown."""
+    """Return the built-in family called ``name``, or the user's function if the name is ``module:function``.
+
+    Raise PlanError if there is no such function.
+    """
     return named("family", name, FAMILIES)
 
 
