@@ -32,10 +32,8 @@ def weights_of_combination() -> Check:
     weights = [(4 - x - y, x, y) for x in range(-3, 8) for y in range(-3, 8)]
     outcomes = [(min(w) >= 0) == all(plane_value(side, (w[1], w[2], 0)) <= 0 for side in sides) for w in weights]
     inner = sum(min(w) >= 0 for w in weights)
-    message = (
-        f"{len(weights)} combinations of the corners of a triangle have weights with the sum 1; only the {inner} "
-        "combinations without a negative weight are in the triangle"
-    )
+    message = f"of {len(weights)} combinations of the corners of a triangle, whose weights have the sum 1, only the "
+    message += f"{inner} without a negative weight are in the triangle"
     return slip(inner == len(weights), all(outcomes), "weights that are not negative and have the sum 1", message)
 
 
@@ -81,10 +79,7 @@ def vertex_of_hull(dimension: int, cases: int = 1) -> Check:
     inner = tuple(int(axis < dimension) for axis in range(3))
     between = [1 for p, q in combinations(corners, 2) if not any(cross(minus(q, p), minus(inner, p)))]  # type: ignore[arg-type]
     alone = not between and len(corners) not in exact_hull([*corners, inner]).vertices
-    message = (
-        f"{sum(checks)} of {len(checks)} points agree: a vertex is between no two points of the hull, and each other "
-        "point is between two"
-    )
+    message = f"of {len(checks)} points, exactly the vertices are between no two points of the hull"
     check = searched(SETS[dimension], cases, checks, message)
     body = "triangle" if dimension == 2 else "tetrahedron"
     return check.unless(alone, f"{inner} inside a {body}, which lies between no two given points")

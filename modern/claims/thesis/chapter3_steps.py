@@ -104,10 +104,8 @@ def classification_by_signs(cases: int = CASES) -> Check:
         for k, point in enumerate(sampled.points):
             largest = max(plane_value(facet.plane, point) for facet in sampled.judge.facets)
             checks.append(largest <= 0 and (largest == 0) == (k not in sampled.judge.inside))
-    message = (
-        f"at {sum(checks)} of {len(checks)} points no equation is positive, and one is 0 exactly if the point is not "
-        "inside; the midpoint of a side is a boundary point and no vertex"
-    )
+    message = f"at {len(checks)} points no equation is positive, and one is 0 exactly if the point is not inside; "
+    message += "the midpoint of a side is a boundary point and no vertex"
     return searched(BOTH, 2 * cases, [*checks, some_boundary], message)
 
 

@@ -164,9 +164,7 @@ def order_of_elimination(cases: int = CASES) -> Check:
         # The last hull is not tested if no point remains, and a run can end with an error after a new point.
         in_order.append(re.fullmatch("(EC+G)*(EC*)?", "".join(steps)))
         hulls += steps.count("E")
-    message = (
-        f"in {len(in_order)} runs with {hulls} hulls, the inside points of a hull are eliminated before it is tested"
-    )
+    message = f"{len(in_order)} runs, {hulls} hulls: the inside points of each hull are eliminated before it is tested"
     return searched(BOTH, 2 * cases, [*in_order, hulls > len(in_order)], message)
 
 
@@ -187,9 +185,9 @@ def first_hull_against_extremes(cases: int = 4) -> Check:
     passed = [volume >= 0 for volume in within] + [any(within), *fewer]
     larger = all(own[0] > of_six[0] == 0 for own, of_six in flat) and first[0] > six_extremes[0] > 0
     message = (
-        f"in {len(within)} of {len(fewer)} sets, H_1 uses only extreme points, and its volume is at most that of the "
-        "hull of the extreme points. H_1 never has more planes than that hull, unless the extreme points are coplanar"
+        f"{len(within)} of {len(fewer)} hulls H_1 use only extreme points, and these are not larger than the hull of "
     )
+    message += "the extreme points; no H_1 has more planes than this hull, unless the extreme points are coplanar"
     case = f"a set with six times the volume {first[0]} for H_1, and {six_extremes[0]} for the hull of the extremes"
     return searched(SETS[3], cases, passed, message).unless(larger, case)
 

@@ -232,10 +232,7 @@ def procedure_in_exact_arithmetic(dimensions: tuple[int, ...], cases: int = CASE
         for row, deck in faults.items():
             is_typed = typed(run_hull(deck, programs.program)).endswith("ERROR IN PROGRAM")
             wrong.append(is_typed and convex_hull([*exact_points(deck)[0].values()]).corrected == (row,))
-        case += (
-            "; and by program 3 as listed, which types ERROR IN PROGRAM for six points, cube.deck and throughc.deck, "
-        )
-        case += "because of one of the three faults each"
+        case += f"; and by program 3 as listed, which types ERROR IN PROGRAM for sets that need {', '.join(faults)}"
     return procedure_against_judge(dimensions, cases).unless(all(wrong), case)
 
 
