@@ -33,6 +33,13 @@ def run(name: str, build: Callable[[], str]) -> int:
     return 0
 
 
+def fill(frame: str, **texts: str) -> str:
+    """Replace each placeholder ``__NAME__`` in a frame by the text of that name."""
+    for name, text in texts.items():
+        frame = frame.replace(f"__{name}__", text)
+    return frame
+
+
 def check_replaceable(folder: Path, marker: str, kind: str) -> None:
     """Raise BuildError unless a build may replace a folder.
 

@@ -185,8 +185,8 @@ class _Plan:
     """The layout of a page before its lines are drawn.
 
     ``lanes`` has the lane of each rail by target and side, and ``landed`` the boxes to which connectors lead. The lists
-    have a vertical coordinate for each box: ``turns`` that of the turn below the box, ``lands`` that of the connector
-    above it, and ``joins`` that of the end of its rails.
+    contain a vertical coordinate for each box: of the turn below it (``turns``), of the connector above it (``lands``),
+    and of the lower end of its rails (``joins``).
     """
 
     height: int

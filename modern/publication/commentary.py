@@ -80,7 +80,7 @@ def commentary(program: str) -> Commentary:
 
 
 def _blocks_from_last(rows: list[dict[str, Any]], program: str, text: str) -> Iterator[Block]:
-    """Yield the blocks of a program from the last to the first.  ``text`` names the program that has every place."""
+    """Yield the blocks of a program, the last one first. ``text`` names the program whose places the rows use."""
     places = [card.place for card in facing(text).cards]
     number_of = {card.place: card.number for card in facing(program).cards}
     end = len(number_of) + 1

@@ -23,7 +23,7 @@ from modern.edition import programs
 from modern.edition.chapter6 import input_deck
 from modern.edition.sources import read
 from modern.formats.points import parse_bytes
-from modern.publication.building import ROOT, BuildError
+from modern.publication.building import ROOT, BuildError, fill
 from modern.publication.commentary import commentary
 from modern.publication.desk import Answer, Desk
 from modern.publication.parting import parted
@@ -65,14 +65,14 @@ def console_page() -> str:
         name: [[b.title, b.cards[0], b.cards[-1], b.text] for b in commentary(name).blocks] for name in programs.NAMES
     }
     data = {"period": _period(), "commentary": about, "recorded": recorded_run(), "pace": _PACE}
-    return _filled("console.html", RECORDED=html.escape(recorded()), DATA=_json(data))
+    return fill(_frame("console.html"), RECORDED=html.escape(recorded()), DATA=_json(data))
 
 
 def parting_page() -> str:
     """Return the HTML of the page that compares the programs with exact arithmetic. It already shows one result."""
     sets = point_sets()
     first = next(iter(sets.values()))
-    return _filled("parting.html", POINTS=html.escape(first), SETS=_json(sets), FIRST=_json(parted(first)))
+    return fill(_frame("parting.html"), POINTS=html.escape(first), SETS=_json(sets), FIRST=_json(parted(first)))
 
 
 def point_sets() -> dict[str, str]:
@@ -200,11 +200,8 @@ def _period() -> Mapping[str, str]:
     return {path.name: path.read_text(encoding="ascii") for path in files}
 
 
-def _filled(name: str, **placeholders: str) -> str:
-    page = (SOURCE / name).read_text(encoding="utf-8")
-    for placeholder, text in placeholders.items():
-        page = page.replace(f"__{placeholder}__", text)
-    return page
+def _frame(name: str) -> str:
+    return (SOURCE / name).read_text(encoding="utf-8")
 
 
 def _json(value: object) -> str:

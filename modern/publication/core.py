@@ -60,7 +60,7 @@ class CoreMap:
 
 
 def core_map(name: str) -> CoreMap:
-    """Return the storage map of a built-in program on a machine with 40,000 positions.  Raise KeyError if unknown."""
+    """Return the storage map of a program on a machine with 40,000 positions. Raise KeyError for an unknown program."""
     program = programs.program(name)
     code = code_positions(program)
     lowest = core_address(program.storage.fields, CORE) + 1

@@ -132,7 +132,7 @@ def _tree(folder: Path) -> Iterator[tuple[str, bytes]]:
 
 
 def described() -> Work:
-    """Return the description of the project from its own files.  Raise ValueError if they contradict each other."""
+    """Return the description of the project from its own files. Raise ValueError if the files contradict each other."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     references = (f"{d.author}: {d.title}. {d.year}" for d in sources().documents)
     return work(citation(), project["project"], references, project["tool"]["deposit"])

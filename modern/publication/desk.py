@@ -131,8 +131,7 @@ class Desk:
         self._log, self._session, self._loaded = io.StringIO(), None, None
         try:
             source = self._source(request["program"], bool(request.get("upcase")))
-            built_in = request["program"] in programs.NAMES if isinstance(request["program"], str) else False
-            program = programs.program(request["program"]) if built_in else compile_deck(source)
+            program = compile_deck(source)
             deck = self._deck(name := request.get("deck", ""))
             options = Options(
                 numbers(str(request.get("arithmetic", "truncating"))),

@@ -8,7 +8,6 @@ points, ``plane NETC`` the number of an equation, and ``at C1 C2 C3`` coordinate
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from fractions import Fraction
 from functools import cache
 from typing import Any
 
@@ -24,7 +23,7 @@ from modern.geometry.vectors import Vector, cross, dot, minus
 from modern.publication.commentary import Block, commentary
 from modern.publication.decks import named_deck
 from modern.publication.measured import LIMIT, runs
-from modern.publication.panel import DEFINING, Record, number
+from modern.publication.panel import DEFINING, Record, exact, number
 
 Point = tuple[float, ...]
 Faces = tuple[tuple[Point, ...], ...]
@@ -211,9 +210,9 @@ def drawn(moment: Moment) -> str:
 
 def _projection(cloud: Sequence[Point]) -> tuple[Callable[[Point], tuple[float, float]], int]:
     """Return the function that maps a point in space to a place in the picture, and the height of the picture."""
-    sight = view(_eye([_vector(point) for point in cloud]))
-    pixel, height = fit([sight.project(_vector(point)) for point in cloud], _WIDTH, _HEIGHT, _MARGIN)
-    return lambda point: pixel(sight.project(_vector(point))).place, height
+    sight = view(_eye([exact(point) for point in cloud]))
+    pixel, height = fit([sight.project(exact(point)) for point in cloud], _WIDTH, _HEIGHT, _MARGIN)
+    return lambda point: pixel(sight.project(exact(point))).place, height
 
 
 def _eye(points: Sequence[Vector]) -> Eye:
@@ -223,8 +222,3 @@ def _eye(points: Sequence[Vector]) -> Eye:
     if normal is None:
         return across(apart[0]) if apart else EYE
     return EYE if any(dot(normal, line) for line in apart) else towards(normal)
-
-
-def _vector(point: Point) -> Vector:
-    x, y, z = (Fraction(str(value)) for value in point)
-    return x, y, z

@@ -5,7 +5,7 @@ hull.
 """
 
 from array import array
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -22,6 +22,8 @@ from emulator.machine.trace import contents
 from emulator.numbers.arithmetic import FIXED_POINT, UNDEFINED
 from emulator.objectdeck.digits import card_text
 from emulator.objectdeck.extent import code_positions
+from modern.geometry.numbers import coordinates
+from modern.geometry.vectors import Vector
 
 # The arrays of coordinates in programs 1 and 3, and the arrays in program 2 for each value of its variable KPROJ.
 _SPACE = ("X", "Y", "Z")
@@ -94,6 +96,11 @@ def number(session: Session, field: int, state: tuple[list[Any], list[Any]] | No
     if kind == UNDEFINED:
         return None
     return float(value) if kind == FIXED_POINT else float(session.options.numbers.traced(value))
+
+
+def exact(point: Sequence[float]) -> Vector:
+    """Return a point of a picture with its coordinates as Fractions."""
+    return coordinates([str(value) for value in point])
 
 
 def core(program: Program, size: int) -> dict[str, Any]:
@@ -178,7 +185,7 @@ def touched(program: Program) -> list[list[list[str]]]:
 
 
 def written(session: Session, line: Line) -> Iterator[int]:
-    """Yield the fields that the statement just completed wrote."""
+    """Yield the fields that the last completed statement wrote."""
     if line.effect == "store":
         yield session.state.stored
     elif line.effect == "list" and session.devices.verb in ("READ", "ACCEPT"):

@@ -12,6 +12,7 @@ from pathlib import Path
 
 from modern.edition.page_answers import blank_table
 from modern.edition.sheets import DEPENDS, Item, Question, Sheet
+from modern.publication.building import fill
 
 _INTRODUCTION = (
     "This sheet belongs to page {page} of Karen Jensen Butler, An Algorithm for Determining the Convex Hull of N "
@@ -77,17 +78,14 @@ def _split(item: Item) -> tuple[str, str, str]:
     return item.text[: item.first], item.text[item.first : item.last], item.text[item.last :]
 
 
-def _filled(frame: str, **texts: str) -> str:
-    sheet = package_files("modern").joinpath("publication", frame).read_text(encoding="utf-8")
-    for name, text in texts.items():
-        sheet = sheet.replace(f"__{name}__", text)
-    return sheet
+def _frame(name: str) -> str:
+    return package_files("modern").joinpath("publication", name).read_text(encoding="utf-8")
 
 
 def html(sheet: Sheet) -> str:
     """Return a proof sheet as an HTML form, which saves its answers as a file without a server."""
-    return _filled(
-        "proof_sheet.html",
+    return fill(
+        _frame("proof_sheet.html"),
         TITLE=f"Proof sheet for page {sheet.page}",
         INTRODUCTION=escape(_INTRODUCTION.format(page=sheet.page)),
         STEPS=escape(_steps(sheet)),
@@ -124,8 +122,8 @@ def _html_choices(entry: Item | Question) -> str:
 
 def typst(sheet: Sheet) -> str:
     """Return a proof sheet as Typst markup for printing."""
-    return _filled(
-        "proof_sheet.typ",
+    return fill(
+        _frame("proof_sheet.typ"),
         PAGE=sheet.page,
         INTRODUCTION=_say(_INTRODUCTION.format(page=sheet.page)),
         STEPS=_say(_steps(sheet)),

@@ -190,7 +190,7 @@ def cells() -> Cells:
 _GAP = Fraction(1, 8)  # the share of a cell that is omitted at each end, so that adjacent cells are visibly separate
 
 
-def _vector(point: Iterable[int]) -> Vector:
+def _vector(point: Iterable[int | Fraction]) -> Vector:
     x, y, z = (Fraction(number) for number in point)
     return x, y, z
 
@@ -202,9 +202,7 @@ def _light(plane: tuple[int, int, int, int]) -> float:
 
 
 def _shrunk(corners: list[Vector]) -> tuple[Vector, ...]:
-    middle = _vector((0, 0, 0))
-    for corner in corners:
-        middle = tuple(a + b / len(corners) for a, b in zip(middle, corner, strict=True))  # type: ignore[assignment]
+    middle = _vector(sum(axis) / len(corners) for axis in zip(*corners, strict=True))
     return tuple(_at(corner, middle, _GAP) for corner in corners)
 
 
@@ -256,9 +254,9 @@ class Quadrant:
 class Level:
     """A level of the octree and the quadtree of a hull. Level 0 is the whole cube.
 
-    ``quadrants`` are the squares of the quadtree, which has the height of the hull's ceiling over each square, divided
-    down to this level. ``full``, ``divided`` and ``empty`` count the nodes of the octree at this level. ``plate`` shows
-    the full cubes down to this level.
+    ``quadrants`` are the squares of the quadtree down to this level, each with the greatest height of the hull above
+    it. ``full``, ``divided`` and ``empty`` count the nodes of the octree at this level. ``plate`` shows the full cubes
+    down to this level.
     """
 
     number: int

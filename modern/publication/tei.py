@@ -136,7 +136,7 @@ def _witness(div: Element, edition: _Edition, lines: Iterable[Segments]) -> None
 
 
 def _ab(div: Element, edition: _Edition, place: str, kind: str, pieces: tuple[Piece, ...]) -> None:
-    """Write a line as an ``ab`` element. ``place`` is the end of its id and ``kind`` its type."""
+    """Write a line as an ``ab`` element. ``place`` is the last part of its id, and ``kind`` is its type."""
     attributes = {ID: f"{edition.text.id}-{place}", "type": kind, _SPACE: "preserve"}
     number = place.removeprefix("l") if place.startswith("l") else ""
     ab = SubElement(div, "ab", attributes | ({"n": number} if number else {}))

@@ -12,6 +12,9 @@ from emulator.errors import EmulatorError, quoted
 
 _TEI = "{http://www.tei-c.org/ns/1.0}"
 _ID = "{http://www.w3.org/XML/1998/namespace}id"
+# The paths of the divisions of a document, and of its files of cards and typed lines.
+_DIVISIONS = f".//{_TEI}body/{_TEI}div"
+_FILES = f"{_DIVISIONS}[@type='devices']/{_TEI}div"
 
 
 class TeiError(EmulatorError, ValueError):
@@ -34,14 +37,14 @@ def parsed(name: str, source: str) -> Element:
 
 def layers(root: Element) -> tuple[str, ...]:
     """Return the layers that a document declares, in order."""
-    categories = [category.get(_ID, "") for category in root.iter(_TEI + "category")]
-    return tuple(name.removeprefix("layer-") for name in categories if name.startswith("layer-"))
+    names = (category.get(_ID, "") for category in root.iter(_TEI + "category"))
+    return tuple(name.removeprefix("layer-") for name in names if name.startswith("layer-"))
 
 
 def printed_layers(root: Element) -> frozenset[str]:
     """Return the layers whose changes belong to the edited text."""
-    edited = [category for category in root.iter(_TEI + "category") if category.get(_ID) == "layers-edited"]
-    return frozenset(name.get(_ID, "").removeprefix("layer-") for group in edited for name in group[1:])
+    edited = root.iterfind(f".//{_TEI}category[@{_ID}='layers-edited']/{_TEI}category")
+    return frozenset(category.get(_ID, "").removeprefix("layer-") for category in edited)
 
 
 def witness(root: Element) -> str:
@@ -68,7 +71,7 @@ def corrected(root: Element, selected: Collection[str] | None = None) -> str:
 
 def parts(root: Element) -> tuple[str, ...]:
     """Return the names of the files of cards and typed lines in a document, such as ``example4/program1.deck``."""
-    return tuple(div.get("n", "") for div in _devices(root))
+    return tuple(div.get("n", "") for div in root.iterfind(_FILES))
 
 
 def part(root: Element, name: str) -> str:
@@ -76,28 +79,17 @@ def part(root: Element, name: str) -> str:
 
     Raise TeiError if the document does not contain a file of this name.
     """
-    for div in _devices(root):
+    for div in root.iterfind(_FILES):
         if div.get("n") == name:
             return "".join(_card(ab) + "\n" for ab in div.iterfind(_TEI + "ab"))
     held = ", ".join(parts(root)) or "none"
     raise TeiError(f"unknown part {quoted(name)}; the document has {held}")
 
 
-def _divisions(root: Element, types: Collection[str]) -> Iterator[Element]:
-    body = root.find(f".//{_TEI}body")
-    for div in () if body is None else body.iterfind(_TEI + "div"):
-        if div.get("type") in types:
-            yield div
-
-
 def _listing(root: Element) -> Iterator[Element]:
-    for div in _divisions(root, ("listing", "print")):
-        yield from div
-
-
-def _devices(root: Element) -> Iterator[Element]:
-    for div in _divisions(root, ("devices",)):
-        yield from div.iterfind(_TEI + "div")
+    for div in root.iterfind(_DIVISIONS):
+        if div.get("type") in ("listing", "print"):
+            yield from div
 
 
 @dataclass(frozen=True)

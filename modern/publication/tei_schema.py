@@ -5,7 +5,7 @@ chapter 22). The compiler needs no TEI software, because each ``elementSpec`` re
 completely and its content model names elements instead of classes.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from functools import cache
 from importlib.resources import files
 from xml.etree.ElementTree import Element, SubElement, fromstring, indent, tostring
@@ -44,13 +44,8 @@ def schema() -> str:
 
 
 def _contents(parent: Element, specification: Element) -> None:
-    for pattern in _children(specification, "content"):
+    for pattern in specification.iterfind(f"{_TEI}content/*"):
         _pattern(parent, pattern)
-
-
-def _children(specification: Element, name: str) -> Iterator[Element]:
-    for child in specification.iterfind(_TEI + name):
-        yield from child
 
 
 def _pattern(parent: Element, pattern: Element) -> None:
@@ -71,7 +66,7 @@ def _pattern(parent: Element, pattern: Element) -> None:
 
 
 def _attributes(parent: Element, specification: Element) -> None:
-    for member in _children(specification, "classes"):
+    for member in specification.iterfind(f"{_TEI}classes/*"):
         SubElement(parent, "ref", name=member.get("key", ""))
     for entries in specification.iterfind(_TEI + "attList"):
         _attribute_list(parent, entries)

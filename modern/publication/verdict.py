@@ -83,7 +83,7 @@ def verdict(program: Program, deck: Deck, options: Options) -> dict[str, Any]:
 def _hulls(stages: Sequence[Hull], result: Result) -> tuple[dict[str, Hull], str]:
     """Return the two hulls by name, and a sentence about their difference."""
     first, last = stages[0], stages[-1]
-    exact = [_exact(point) for point in first["points"]]
+    exact = [panel.exact(point) for point in first["points"]]
     points = scaled(exact)
     dimension, loops = true_hull(points)
     if dimension == 2:
@@ -95,9 +95,9 @@ def _hulls(stages: Sequence[Hull], result: Result) -> tuple[dict[str, Hull], str
     if not last.get("final") or refusal(result):
         return {"hull": hull}, f"The program punched no complete hull; {true}."
     # The program may have exchanged or deleted points since the first stage.
-    index_of = {point: n for n, point in reversed(list(enumerate(exact)))}
-    faces = [[index_of[_exact(last["points"][n])] for n in face] for face in last["faces"]]
-    vertices = [n for point in read_hull(result.punched).vertices if (n := index_of.get(_exact(point))) is not None]
+    index_of: dict[tuple[Fraction, ...], int] = {point: n for n, point in reversed(list(enumerate(exact)))}
+    faces = [[index_of[panel.exact(last["points"][n])] for n in face] for face in last["faces"]]
+    vertices = [n for point in read_hull(result.punched).vertices if (n := index_of.get(point)) is not None]
     on, true_on = ([_on(points, face, dimension) for face in some] for some in (faces, loops))
     missed, extra = _without(corners, vertices, points), _without(vertices, corners, points)
     wrong = [n for n, members in enumerate(on) if members not in true_on]
@@ -121,11 +121,6 @@ def _hulls(stages: Sequence[Hull], result: Result) -> tuple[dict[str, Hull], str
     marks = {"missed": missed, "extra": extra}
     final = {"points": first["points"], "vertices": vertices, "faces": faces, "wrong": wrong} | marks
     return {"hull": hull | marks | {"wrong": lost}, "final": final}, says
-
-
-def _exact(point: Sequence[float | Fraction]) -> tuple[Fraction, Fraction, Fraction]:
-    x, y, z = (Fraction(str(value)) for value in point)
-    return x, y, z
 
 
 def _without(some: Sequence[int], others: Sequence[int], points: Sequence[Whole]) -> list[int]:

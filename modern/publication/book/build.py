@@ -137,7 +137,7 @@ def typst(folder: Path) -> str:
     labels = {place for name, text in texts.items() for place in places(name, text)}
     labels |= {place for text in generated.values() for place in re.findall(r" <([\w.-]+)>", text)}
     generated["@bibliography"] = "".join(front.bibliography(markdown(_LITERATURE, labels), PERSONS))
-    book = [(Path(__file__).parent / "preamble.typ").read_text(encoding="utf-8"), *front.title_and_imprint()]
+    book = [(Path(__file__).parent / "preamble.typ").read_text(encoding="utf-8"), front.title_and_imprint()]
     for title, chapter in CHAPTERS:
         if title in _NUMBERING:
             book.append(f"#set heading(numbering: {_NUMBERING[title]})\n")

@@ -1,6 +1,7 @@
 """The front and back matter of the book: title, imprint, how to read it, the figures of the essay, the bibliography."""
 
 from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
 
 from modern.claims.register import COLUMNS, DOCUMENTS, THESIS, counts
 from modern.drawing.draw import draw_svg
@@ -8,7 +9,7 @@ from modern.drawing.stages import strip
 from modern.edition.sources import Document, sources
 from modern.publication import essay
 from modern.publication.book.markup import block, code, heading, label, say, string, table
-from modern.publication.building import citation
+from modern.publication.building import citation, fill
 from modern.publication.facing import facing
 from modern.publication.tei_register import document_of
 
@@ -18,33 +19,24 @@ SavePicture = Callable[[str, str], str]
 FRAME = 212, 230
 
 
-def title_and_imprint() -> Iterator[str]:
-    """Yield the title page, the imprint on its back, and the contents."""
-    fields = citation()
-    thesis = document_of(THESIS)
-    released, author = fields["date-released"], fields["authors"][0]["name"]
-    yield f"#set document(title: {string(fields['title'])}, author: {string(author)}, "
-    yield f"date: datetime(year: {released.year}, month: {released.month}, day: {released.day}))\n"
-    yield '#v(22%)\n#[#set text(font: sans); #set par(justify: false); #text(size: 28pt, weight: "semibold")['
-    yield f"{say('The convex hull programs of 1963')}]\n\n#v(0.6em)\n"
-    yield f"#text(size: 13pt)[{say(thesis.author)}]\n\n#text(size: 12pt)[{say(thesis.title)}]\n\n#v(2em)\n"
-    yield "#line(length: 30%, stroke: 0.8pt + accent)\n\n#v(1em)\n"
-    yield say("An edition with commentary, restored and run on an emulated IBM 1620")
-    yield f"\n\n{say(author)}]\n#pagebreak()\n"
-    yield "#v(1fr)\n#[#set text(size: 8.6pt); #set par(justify: false, leading: 0.58em)\n"
-    for text in (
-        f"{fields['title']}. Edition {fields['version']}, {released:%B} {released.day}, {released.year}.",
-        f"Published by {author}. The names of the persons are not recorded.",
-        f"Cite as: {author}, {fields['title']}, version {fields['version']}, {released.year}.",
-        f"The thesis: {_cited(thesis)} {thesis.rights}",
-        "The notes, the commentary, the verdicts and the tables of the studies are in the public domain (CC0 1.0). "
-        "Code and documents have the MIT licence. Listings, prints and quotations belong to their authors and "
-        "publishers and are quoted as the objects of study. The file LICENSE of the source names each part.",
-        "The editors worked from an OCR text of the thesis and have not seen its pages.",
-        "Set by Typst in IBM Plex (SIL Open Font License 1.1) as PDF/A-2a. The same sources give the same file.",
-    ):
-        yield say(text) + "\n\n"
-    yield "]\n#pagebreak()\n#outline(title: [Contents], depth: 2)\n"
+def title_and_imprint() -> str:
+    """Return the title page, the imprint on its back, and the contents, from the frame ``front.typ``."""
+    fields, thesis = citation(), document_of(THESIS)
+    released = fields["date-released"]
+    texts = {
+        "TITLE": fields["title"],
+        "AUTHOR": fields["authors"][0]["name"],
+        "VERSION": fields["version"],
+        "YEAR": str(released.year),
+        "MONTH": str(released.month),
+        "DAY": str(released.day),
+        "DATE": f"{released:%B} {released.day}, {released.year}",
+        "WRITER": thesis.author,
+        "THESIS": thesis.title,
+        "SOURCE": f"{_cited(thesis)} {thesis.rights}",
+    }
+    frame = Path(__file__).with_name("front.typ").read_text(encoding="utf-8")
+    return fill(frame, **{name: string(text)[1:-1] for name, text in texts.items()})
 
 
 def how_to_read() -> Iterator[str]:

@@ -6,7 +6,6 @@ time, the machine or the user of the build.
 """
 
 import os
-import shutil
 import sys
 import tempfile
 from collections.abc import Sequence
@@ -18,7 +17,7 @@ from modern.publication.site import downloads
 
 MISSING_SPHINX = "Sphinx builds the site: pip install 'hull1620[edition]'"
 _MARKER = ".hull1620-edition"  # a file in every site; a folder without it is not replaced
-_NOT_PUBLISHED = (".buildinfo", ".doctrees", "objects.inv", "_sources")
+_NOT_PUBLISHED = (".buildinfo", "objects.inv")
 
 
 def build(out: Path, docs: Path = ROOT / "docs", quiet: bool = False, wheel: Path | None = None) -> None:
@@ -32,11 +31,7 @@ def build(out: Path, docs: Path = ROOT / "docs", quiet: bool = False, wheel: Pat
         new_site = Path(folder) / "site"
         _run_sphinx(docs, new_site, Path(folder) / "trees", quiet)
         for name in _NOT_PUBLISHED:
-            path = new_site / name
-            if path.is_dir():
-                shutil.rmtree(path)
-            else:
-                path.unlink(missing_ok=True)
+            (new_site / name).unlink(missing_ok=True)
         install_machine(new_site / "console", wheel)
         downloads.write(new_site / downloads.FOLDER)
         (new_site / _MARKER).write_text("built by hull1620; `make edition` replaces this folder\n", encoding="utf-8")

@@ -125,7 +125,7 @@ def map_svg(storage: CoreMap) -> str:
 
 
 def _labelled_addresses(storage: CoreMap) -> Iterator[int]:
-    """Yield the addresses next to the map: the start of each region below the data and of the data, and the end of
+    """Yield the addresses that label the map: the starts of the regions below the data, of the data, and the end of
     core.
     """
     previous = ""
@@ -171,7 +171,7 @@ def example_runs() -> list[Run]:
 
 
 def times_of(run: Run) -> tuple[Time, ...]:
-    """Return the time of each of :data:`PARTS`."""
+    """Return the time of a run for each part of a bar (:data:`PARTS`)."""
     return tuple(sum((row.time for row in run.rows if row.cause in causes), Time()) for causes in PARTS.values())
 
 
