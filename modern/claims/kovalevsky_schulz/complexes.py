@@ -110,7 +110,7 @@ def cells_of_a_cube() -> Check:
 
 @claim("kovalevsky-schulz.175")
 def edges_at_a_0_cell() -> Check:
-    """Check that a 0-cell is incident to four 1-cells in a plane, but to more in space."""
+    """Check that a 0-cell is incident to at most four 1-cells in a plane, but to more in space."""
     plane = {*product(range(5), repeat=2)}
     numbers = [sum(dimension(f) == 1 for f in star(cell) & plane) for cell in plane if dimension(cell) == 0]
     space = sum(dimension(cell) == 1 for cell in star((2, 2, 2)))
