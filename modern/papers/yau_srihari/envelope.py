@@ -182,7 +182,8 @@ def _by_candidates(edges: list[Edge], points: tuple[Point, ...]) -> tuple[Face, 
     while queue:
         # Gift wrapping: rotate a plane about the edge, from the known face to the first points that the plane meets.
         edge = next(iter(queue))
-        in_plane = candidates.face_on(*edge, queue.pop(edge))
+        in_plane = candidates.face_on(*edge)
+        del queue[edge]
         if not in_plane or len(faces) > _most(points):
             raise AssertionError(f"no second face was found on the edge {edge}")
         face = Face(_polygon(*edge, in_plane), normal_of(*edge, in_plane[0]))

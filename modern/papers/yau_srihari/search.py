@@ -7,7 +7,6 @@ Angles are compared exactly. The angle between two integer normals p and q has a
 finds the same points in the same order by one pass over arrays of all points.
 """
 
-import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -21,9 +20,6 @@ from modern.papers.yau_srihari.quadtree import NO_COLUMN, Point, Quadtree, bound
 
 Normal = tuple[int, int, int]
 Bounds = tuple[Fraction | None, Fraction | None]
-
-# A bound of the relative rounding error of a float64 score, which is the result of one product and one quotient.
-ROUNDED = 2.0**-48
 
 
 def normal_of(u: Point, v: Point, w: Point) -> Normal:
@@ -152,49 +148,33 @@ def _corners(x: int, y: int, side: int) -> Iterator[tuple[int, int]]:
 
 
 class Candidates:
-    """The points that may be vertices of faces, as arrays, for the same search as in :class:`Search`, but faster.
-
-    A face is found by one pass over all points. The coordinates are at most 1,024, the side of the largest cube.
-    Therefore all sums of products in a score are integers below 2 ** 53, which float64 represents exactly. Only the
-    last product and the quotient are rounded. The points whose rounded scores could be the greatest are compared
-    exactly.
-    """
+    """The points that may be vertices of faces, as an array, for the same search as in :class:`Search`, but faster."""
 
     def __init__(self, points: Sequence[Point]) -> None:
-        x, y, z = np.array(points, dtype=np.int64).reshape(-1, 3).T
-        order = np.argsort(interleaved(x, y))
+        table = np.array(points, dtype=np.int64).reshape(-1, 3).T
+        order = np.argsort(interleaved(table[0], table[1]))
         self._points = [points[k] for k in order.tolist()]
         self._row = {point: k for k, point in enumerate(self._points)}
         self._unmarked = np.ones(len(points), dtype=np.bool_)
-        self._homogeneous = np.stack((x, y, z, np.ones_like(x)))[:, order].astype(np.float64)
+        self._table = table[:, order]
 
-    def face_on(self, start: Point, end: Point, normal: Normal) -> list[Point]:
+    def face_on(self, start: Point, end: Point) -> list[Point]:
         """Return the unmarked points in the plane of an edge's second face, in the same order as ``Search.run``."""
-        ex, ey, ez = end[0] - start[0], end[1] - start[1], end[2] - start[2]
-        divisor = math.gcd(*normal)
-        a, b, c = (number // divisor for number in normal)
-        # Each row of the matrix is a linear function of a point. The functions are the three components of the normal
-        # of the plane through the edge and the point, and the product of that normal with the known face's normal.
-        rows = np.array(
-            [[0, -ez, ey], [ez, 0, -ex], [-ey, ex, 0], [b * ez - c * ey, c * ex - a * ez, a * ey - b * ex]],
-            dtype=np.int64,
-        )
-        forms = np.concatenate((rows, -(rows @ np.array(start))[:, None]), axis=1).astype(np.float64)
-        # Beyond the edge the normal points down, which is a negative third component.
-        normal_z = forms[2] @ self._homogeneous
-        beyond = np.flatnonzero((normal_z < 0) & self._unmarked)
-        if not len(beyond):
-            return []
-        p, q, r, product = forms @ self._homogeneous[:, beyond]
-        scores = product * np.abs(product) / (p * p + q * q + r * r)
-        best = scores.max()
-        contenders = beyond[scores >= best - abs(best) * ROUNDED]
-        if len(contenders) == 1:
-            return [self._points[contenders[0]]]
-        search = Search(start, end, normal, Printed())
-        for k in contenders.tolist():
-            search.take(self._points[k])
-        return search.points
+        ex, ey = end[0] - start[0], end[1] - start[1]
+        x, y, _ = self._table
+        candidates = np.flatnonzero((ex * y - ey * x < ex * start[1] - ey * start[0]) & self._unmarked)
+        # Rotate a plane about the edge: as long as points are outside, it passes through the farthest of them. A point
+        # that is not outside never is outside again.
+        outermost = 0
+        while len(candidates):
+            a, b, c = normal_of(start, end, self._points[candidates[outermost]])
+            x, y, z = self._table[:, candidates]
+            heights = a * (x - start[0]) + b * (y - start[1]) + c * (z - start[2])
+            if heights.max() <= 0:
+                return [self._points[k] for k in candidates[heights == 0].tolist()]
+            outside = heights > 0
+            candidates, outermost = candidates[outside], int(heights[outside].argmax())
+        return []
 
     def mark(self, in_face: Iterable[Point], vertices: Iterable[Point]) -> None:
         """Exclude the points of a face from later searches, but not its vertices, which neighbouring faces share."""
