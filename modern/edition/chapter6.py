@@ -110,10 +110,6 @@ class Layout:
 def load_layout(folder: Traversable) -> Layout:
     """Read ``layout.toml`` of a transcript folder.  Raises LayoutError for an unknown card, role, device or layer."""
     data = tomllib.loads(folder.joinpath("layout.toml").read_text(encoding="utf-8"))
-    formats = tuple(
-        Format(f["program"], f["number"], f["page"], f["text"], f.get("listed", f["text"]), f.get("note", ""))
-        for f in data["format"]
-    )
     shapes: dict[str, CardShape] = {}
     for raw in data["card"]:
         fields = tuple(Field(first, last, kind == "l") for first, last, kind in raw["fields"])
@@ -121,7 +117,7 @@ def load_layout(folder: Traversable) -> Layout:
             raise LayoutError(f"layout.toml: card {raw['id']} is defined twice")
         shapes[raw["id"]] = CardShape(raw["id"], raw["program"], raw["format"], raw["record"], raw["values"], fields)
     return Layout(
-        formats=formats,
+        formats=tuple(Format(**{"listed": raw["text"], "note": "", **raw}) for raw in data["format"]),
         cards=tuple(shapes.values()),
         headings=tuple(str(h["line"]) for h in data["heading"]),
         devices=tuple(_device(raw, shapes) for raw in data["device"]),

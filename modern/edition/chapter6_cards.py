@@ -6,7 +6,7 @@ cards.  The output of our own runs is not used.
 """
 
 import re
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -59,37 +59,31 @@ class Card:
 class Chapter:
     """Chapter 6: the text with its apparatus, the corrected text (``print``) built from it, and the layout.
 
-    ``layers`` are the applied layers, and ``without`` the ids of the rows that were not applied.
+    ``without`` has the ids of the rows that were not applied.
     """
 
     text: Text
     print: tuple[Line, ...]
     layout: Layout
-    layers: tuple[str, ...]
     without: frozenset[str]
 
 
-def load_chapter(layers: Iterable[str] | None = None, without: Collection[str] = ()) -> Chapter:
-    """Read chapter 6 with the rows of ``layers``, by default all layers, except the rows with the ids ``without``."""
-    return rebuilt(*_text_and_layout(), layers, without)
-
-
 @cache
-def _text_and_layout() -> tuple[Text, Layout]:
+def load_chapter() -> Chapter:
+    """Return chapter 6 with all rows of its apparatus."""
     folder = chapter6_folder()
-    return load(folder, "chapter6"), load_layout(folder)
+    return rebuilt(load(folder, "chapter6"), load_layout(folder))
 
 
-def rebuilt(text: Text, layout: Layout, layers: Iterable[str] | None = None, without: Collection[str] = ()) -> Chapter:
-    """Return chapter 6 built from a text and a layout."""
-    applied = tuple(text.default if layers is None else layers)
-    return Chapter(text, build(text, applied, without), layout, applied, frozenset(without))
+def rebuilt(text: Text, layout: Layout, without: Collection[str] = ()) -> Chapter:
+    """Return chapter 6 built from a text and a layout, without the rows whose ids are in ``without``."""
+    return Chapter(text, build(text, None, without), layout, frozenset(without))
 
 
 def without_row(chapter: Chapter, row_id: str) -> Chapter:
-    """Return the chapter with all layers, but without a row and without the rows that depend on this row."""
+    """Return the chapter without a row and without the rows that depend on this row."""
     gone, lines = built_without(chapter.text, row_id)
-    return Chapter(chapter.text, lines, chapter.layout, chapter.text.layers, gone)
+    return Chapter(chapter.text, lines, chapter.layout, gone)
 
 
 def device_files(chapter: Chapter) -> tuple[tuple[int, int, Device, str], ...]:

@@ -214,7 +214,7 @@ def _by_columns(chapter: Chapter, row: Row, ids: Sequence[str]) -> bool:
     ordered = sorted(witness, key=lambda line: len(line.text) - len(line.text.lstrip()))
     others = frozenset(r.id for r in chapter.text.rows) - {row.id}
     try:
-        alone = build(chapter.text, chapter.layers, others)
+        alone = build(chapter.text, None, others)
     except ApparatusError:
         return False
     before, expected, after = (

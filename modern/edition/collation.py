@@ -79,8 +79,8 @@ class Collation:
     cards: tuple[CollatedCard, ...]
 
 
-def collate(text: str, file: str = "", name: str = "") -> Collation:
-    """Collate a transcription of the listings or of a part of them."""
+def collate(text: str, file: str = "") -> Collation:
+    """Collate a transcription of the listings, or of a part of them.  ``file`` is the name of its file."""
     aligned = align(text)
     pieces = {n: _pieces(n, line) for n, (line, _) in aligned.items()}
     pairs = _pairs(aligned)
@@ -89,7 +89,7 @@ def collate(text: str, file: str = "", name: str = "") -> Collation:
         for n in range(len(edition_cards()))
     )
     digest = hashlib.sha256(text.encode()).hexdigest()
-    return Collation(name or digest[:12], file, digest, len(read_lines(text)), cards)
+    return Collation(digest[:12], file, digest, len(read_lines(text)), cards)
 
 
 def _pieces(n: int, line: str) -> tuple[str, ...]:
@@ -293,11 +293,11 @@ def report(collation: Collation, text: str) -> Iterator[str]:
                 yield f"{place}: {readings[0].verdict}: {there or 'nothing'} for {here}"
 
 
-def _ranges(numbers: Sequence[int], most: int = 10) -> str:
-    """Return ascending numbers as text, such as ``1-3, 7``, with at most the first ``most`` ranges."""
+def _ranges(numbers: Sequence[int]) -> str:
+    """Return ascending numbers as text, such as ``1-3, 7``, with at most the first ten ranges."""
     runs = [[n for _, n in run] for _, run in groupby(enumerate(numbers), lambda pair: pair[1] - pair[0])]
     texts = [f"{run[0]}-{run[-1]}" if len(run) > 1 else f"{run[0]}" for run in runs]
-    return ", ".join(texts[:most]) + (", ..." if len(texts) > most else "")
+    return ", ".join(texts[:10]) + (", ..." if len(texts) > 10 else "")
 
 
 def shared_errors(collation: Collation) -> tuple[int, int]:

@@ -8,10 +8,11 @@ copied.  :func:`check_files` verifies the hashes.  For a user who has the whole 
 
 import hashlib
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
+from typing import Any
 
 from modern.edition.apparatus import PAGE_MARK, ApparatusError
 
@@ -123,38 +124,35 @@ class Sources:
         raise ApparatusError(f"SOURCES.toml: {text} has no witness")
 
 
+# The fields of a document that have another name in SOURCES.toml.
+_RENAMED = {"pages": "extent", "held_lines": "lines", "pages_of_lines": "pages"}
+
+
 @cache
 def sources() -> Sources:
     """Return the contents of SOURCES.toml."""
     data = tomllib.loads(files("fortran_src").joinpath("SOURCES.toml").read_text(encoding="utf-8"))
     return Sources(
-        tuple(
-            Document(
-                **{name: raw[name] for name in ("id", "author", "title", "year", "kind", "institution", "volume")},
-                extent=raw["pages"],
-                **{name: raw[name] for name in ("doi", "held", "sha256", "bytes", "characters")},
-                lines=raw["held_lines"],
-                rights=raw["rights"],
-                pages=tuple((page, first, last) for page, first, last in raw["pages_of_lines"]),
-            )
-            for raw in data["document"]
-        ),
-        tuple(
-            Excerpt(
-                raw["text"],
-                raw["file"],
-                raw["document"],
-                raw["sha256"],
-                tuple(
-                    Stretch(s["witness"][0], s["witness"][1], s["document"], s.get("part", False)) for s in raw["lines"]
-                ),
-            )
-            for raw in data["excerpt"]
-        ),
+        tuple(map(_document, data["document"])),
+        tuple(map(_excerpt, data["excerpt"])),
         tuple((raw["file"], raw["sha256"]) for raw in data["deck"]),
         tuple((raw["program"], raw["layer"], raw["sha256"]) for raw in data["layered"]),
         tuple(Transcription(**raw) for raw in data["transcription"]),
     )
+
+
+def _document(raw: Mapping[str, Any]) -> Document:
+    values = {_RENAMED.get(name, name): value for name, value in raw.items()}
+    return Document(**{**values, "pages": tuple(map(tuple, values["pages"]))})
+
+
+def _excerpt(raw: Mapping[str, Any]) -> Excerpt:
+    lines = tuple(
+        Stretch(first, last, s["document"], s.get("part", False))
+        for s in raw["lines"]
+        for first, last in [s["witness"]]
+    )
+    return Excerpt(raw["text"], raw["file"], raw["document"], raw["sha256"], lines)
 
 
 def read(file: str) -> str:

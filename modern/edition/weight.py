@@ -23,7 +23,7 @@ import hashlib
 import json
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from functools import cache
@@ -247,9 +247,9 @@ def _unlike(variant: Variant) -> bool:
     return alike(variant.was) >= 2 and not (variant.reads and _forms()[_form(variant.reads)])
 
 
-def ordered(names: Iterable[str] = programs.TEXTS) -> list[Variant]:
+def ordered() -> list[Variant]:
     """Return all variants ordered by the SHA-256 of their keys, so that the first n are a random sample."""
-    every = [variant for name in names for variant in variants(name)]
+    every = [variant for name in programs.TEXTS for variant in variants(name)]
     return sorted(every, key=lambda v: hashlib.sha256(v.key.encode()).digest())
 
 
