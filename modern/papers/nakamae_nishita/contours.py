@@ -1,7 +1,7 @@
 """Find pairs of polyhedra that may overlap in the picture, and compute the tables PL and LP of a pair (section 3.2).
 
-Pairs with overlapping bounding boxes are found on a grid of cells. The boxes are in floating point and are widened by
-more than the rounding error, so no pair is lost. A superfluous pair costs only the time for its tables.
+Only pairs with overlapping bounding boxes are compared. The boxes are in floating point and are widened by more than
+the rounding error, so no pair is lost. A superfluous pair costs only the time for its tables.
 
 The tables are those of formulas (2) and (3), and have the paper's properties 1 to 4. The contour of V has the vertices
 P_i, and the contour of V' the vertices P_j, both clockwise. ``PL[j][i]`` tells on which side of the segment from P_i to
@@ -9,8 +9,6 @@ P_(i+1) the vertex P_j lies, and ``LP[j][i]`` on which side of the segment from 
 the inner side, -1 the outer side, and 0 the line itself.
 """
 
-import math
-from collections import defaultdict
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -19,7 +17,6 @@ from modern.papers.nakamae_nishita.projection import Homogeneous
 Box = tuple[float, float, float, float]
 
 _MARGIN = 2.0**-50
-_CELLS = 1 << 12
 
 
 def boxes(contours: Sequence[Sequence[Homogeneous]]) -> list[Box | None]:
@@ -44,38 +41,19 @@ def boxes(contours: Sequence[Sequence[Homogeneous]]) -> list[Box | None]:
     return all_boxes
 
 
-def overlapping(all_boxes: Sequence[Box | None]) -> Iterator[tuple[int, int]]:
-    """Yield the pairs of indices of boxes that overlap, in increasing order."""
-    nonempty = [(index, box) for index, box in enumerate(all_boxes) if box is not None]
-    if len(nonempty) < 2:
-        return
-    # The grid covers all boxes, with about as many rows and columns as the square root of their number.
-    x_min, x_max = min(box[0] for _, box in nonempty), max(box[1] for _, box in nonempty)
-    y_min, y_max = min(box[2] for _, box in nonempty), max(box[3] for _, box in nonempty)
-    resolution = min(math.isqrt(len(nonempty)) + 1, _CELLS)
-    per_x, per_y = resolution / (x_max - x_min), resolution / (y_max - y_min)
-    cells: dict[tuple[int, int], list[tuple[int, Box, int, int]]] = defaultdict(list)
-    for index, box in nonempty:
-        first_column, first_row = int((box[0] - x_min) * per_x), int((box[2] - y_min) * per_y)
-        # Enter the box in every cell that it touches.
-        for column in range(first_column, int((box[1] - x_min) * per_x) + 1):
-            for row in range(first_row, int((box[3] - y_min) * per_y) + 1):
-                cells[column, row].append((index, box, first_column, first_row))
+def overlapping(all_boxes: Sequence[Box | None]) -> list[tuple[int, int]]:
+    """Return the pairs of indices of boxes that overlap, in increasing order."""
+    ordered = sorted((box, index) for index, box in enumerate(all_boxes) if box is not None)
     pairs = []
-    for (column, row), group in cells.items():
-        for order, (index_a, a, column_a, row_a) in enumerate(group):
-            for index_b, b, column_b, row_b in group[:order]:
-                # Two boxes may share several cells. The pair is reported in the first of them only.
-                if (
-                    max(column_a, column_b) == column
-                    and max(row_a, row_b) == row
-                    and a[0] <= b[1]
-                    and b[0] <= a[1]
-                    and a[2] <= b[3]
-                    and b[2] <= a[3]
-                ):
-                    pairs.append((index_b, index_a))
-    yield from sorted(pairs)
+    for place, (a, index_a) in enumerate(ordered):
+        # The boxes are sorted by their left sides, so the first box to the right of box a ends the search.
+        for later in range(place + 1, len(ordered)):
+            b, index_b = ordered[later]
+            if b[0] > a[1]:
+                break
+            if a[2] <= b[3] and b[2] <= a[3]:
+                pairs.append((min(index_a, index_b), max(index_a, index_b)))
+    return sorted(pairs)
 
 
 Row = tuple[int, ...]
