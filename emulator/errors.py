@@ -120,7 +120,10 @@ class Refused(Exception):
 
 
 class CompileError(EmulatorError):
-    """Raised for a program with errors. ``diagnostics`` has all messages; ``str()`` is the first error."""
+    """Raised for a program with errors.
+
+    ``diagnostics`` holds all messages of the compiler.  ``str`` is the first error and the number of further errors.
+    """
 
     def __init__(self, source: str, diagnostics: Iterable[Diagnostic]) -> None:
         self.source = source

@@ -141,7 +141,7 @@ class End:
 
 @dataclass(frozen=True, slots=True)
 class Dimension:
-    """The statement ``DIMENSION name(rows), name(rows, columns)``, which declares arrays (p. 18, 56 item 9)."""
+    """The statement ``DIMENSION name(rows), name(rows, columns)``, which declares arrays (p. 18; p. 56, item 9)."""
 
     arrays: tuple[tuple[str, tuple[int, ...], Place], ...]
 

@@ -28,7 +28,7 @@ class TooLong(Exception):
 
 @dataclass
 class Layout:
-    """The specifications of a FORMAT in core storage.  Reading changes its text fields."""
+    """The specifications of a FORMAT in core storage.  A READ or ACCEPT changes the texts of its H and X fields."""
 
     spec: FormatSpec
     literals: list[str] = field(default_factory=list)

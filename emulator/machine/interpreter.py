@@ -124,31 +124,25 @@ def run(
                         reason = AT_UNDEFINED
                         break
                     row += factor * values[variable]
-                if columns == 0:
-                    if strict and not 1 <= row <= rows:
-                        # The hull programs copy element N+1 when they delete the last entry of a full table
-                        # (KNOWN-FAULTS).  No statement computes with the copy, so the copy is only marked as undefined.
-                        if operation == SEND and row == rows + 1:
-                            sent, sent_kind = 0, UNDEFINED
-                            pc += 1
-                            continue
-                        state.index = (row,)
-                        reason = AT_BOUNDS
+                if variable_2 >= 0:
+                    if kinds[variable_2] != FIXED_POINT:
+                        address = variable_2
+                        reason = AT_UNDEFINED
                         break
-                    address += row - 1
-                else:
-                    if variable_2 >= 0:
-                        if kinds[variable_2] != FIXED_POINT:
-                            address = variable_2
-                            reason = AT_UNDEFINED
-                            break
-                        column += factor_2 * values[variable_2]
-                    if strict and not (1 <= row <= rows and 1 <= column <= columns):
-                        state.index = (row, column)
-                        reason = AT_BOUNDS
-                        break
-                    # Arrays are stored column by column.
-                    address += row - 1 + rows * (column - 1)
+                    column += factor_2 * values[variable_2]
+                # An array of one dimension has 0 columns, and its column is 1.
+                if strict and not (1 <= row <= rows and 1 <= column <= (columns or 1)):
+                    # The hull programs copy element N+1 when they delete the last entry of a full table (KNOWN-FAULTS).
+                    # No statement computes with the copy, so the copy is only marked as undefined.
+                    if operation == SEND and row == rows + 1 and columns == 0:
+                        sent, sent_kind = 0, UNDEFINED
+                        pc += 1
+                        continue
+                    state.index = (row, column)
+                    reason = AT_BOUNDS
+                    break
+                # Arrays are stored column by column.
+                address += row - 1 + rows * (column - 1)
                 if address < 0 or address >= size:
                     reason = AT_OUTSIDE
                     break

@@ -30,10 +30,9 @@ def post_dominators(follow: Sequence[Sequence[int]]) -> list[int]:
 
 
 def meeting(sets: Sequence[int], first: int, second: int) -> int:
-    """Return the first instruction on every path from both of two instructions, or -1 if that is the end.
+    """Return the first instruction that lies on every path from both of two instructions, or -1 if there is none.
 
-    ``sets`` are the post-dominators of all instructions.  Return -1 also if no path from one of the two leads to the
-    end.
+    ``sets`` are the post-dominators of all instructions.  The end does not count as an instruction.
     """
     # The post-dominators of an instruction form a chain.  The common part of two chains is the chain of the instruction
     # at which the paths join.

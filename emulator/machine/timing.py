@@ -106,7 +106,7 @@ def modelled(seconds: float, cause: str = "") -> Time:
 
 
 def nominal(seconds: float) -> Time:
-    """Return a time of reader, punch or typewriter."""
+    """Return a time that the manual states, for the reader, punch or typewriter, without a systematic error."""
     return Time(seconds, seconds, seconds)
 
 
@@ -140,7 +140,10 @@ class Timing:
 
 
 def measure(program: Program, result: Result) -> Timing:
-    """Return the time table of a run.  Its ``statements`` pair an index into ``program.statements`` with a count."""
+    """Return the time table of a run.
+
+    Its ``statements`` are pairs of an index into ``program.statements`` and the number of executions.
+    """
     expect(program, Program, "program")
     expect(result, Result, "result")
     operations: Tally[str] = Tally()

@@ -52,9 +52,10 @@ class Addresses:
         ----------
         call
             The first seven digits of the instruction.
-        field, subscript
-            The number of the operand's field in storage, and the index of its subscript in the program's list of
-            subscripts.  The index is -1 if the address is fixed.
+        field
+            The number of the operand's field in storage.
+        subscript
+            The index of the operand's subscript in ``program.subscripts``, or -1 if the address is fixed.
         at
             The position at which the code begins.
         """

@@ -158,7 +158,7 @@ class _Generator:
         return step_forward + compare + d.BRANCH_NO_INDICATOR + address(self.places[body]) + _NOT_HIGH
 
     def _is_past_branch(self, pc: int) -> bool:
-        """Return True if control never reaches END: it has no number, and the statement before it always branches."""
+        """Return True if control never reaches END: it has no number and follows a statement that always branches."""
         before = pc - 1
         while before >= 0 and self.program.code[before].operation == op.COUNT:
             before -= 1
@@ -250,7 +250,7 @@ class _Generator:
     def _items(self, instruction: Instruction, loops: tuple[int, ...] | None) -> None:
         """Output the calls that transfer a list item.
 
-        ``loops`` is None unless the item is the last one of its list; it then holds the loops that end after the item.
+        For the last item of a list, ``loops`` holds the loops that end after the item; otherwise it is None.
         """
         count = op.repeats(instruction)
         for element in range(count):

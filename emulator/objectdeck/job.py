@@ -133,7 +133,7 @@ def _data(deck: Deck, data: Deck) -> tuple[Card, ...]:
 
 
 def _fitted(name: str, card: Card, source: Source | None, compiler: Compiler) -> tuple[tuple[str, ...], str]:
-    """Return a statement or comment as cards that the compiler accepts, and the reason if they had to change."""
+    """Return a statement or comment as cards that the compiler accepts, and the reason for a change, or ""."""
     if source is None or is_comment(card):
         text = "".join(c if c.upper() in READABLE else " " for c in card.text).rstrip()
         return (text,), "" if text == card.text else "the simulator reads only characters of the card code"

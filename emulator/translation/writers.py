@@ -371,7 +371,7 @@ def _runtime(name: str) -> list[str]:
 
 
 def _wrapped(text: str) -> Iterator[str]:
-    """Yield the lines of a Fortran statement.  A long one is divided, if necessary within a quoted text."""
+    """Yield the lines of a Fortran statement.  A long line is divided, even within a quoted text."""
     lines = [text[at : at + _LINE] for at in range(0, len(text), _LINE)]
     for n, line in enumerate(lines):
         yield ("&" if n else "") + line + ("&" if n < len(lines) - 1 else "")
