@@ -297,13 +297,7 @@ class Profile:
 
 
 def rules_of(
-    digits: int,
-    guard: int = 0,
-    sticky: int = 0,
-    sums: int = 0,
-    products: int = 0,
-    quotients: int = 0,
-    as_1962: int = 0,
+    digits: int, guard: int = 0, sticky: int = 0, sums: int = 0, products: int = 0, quotients: int = 0, as_1962: int = 0
 ) -> Rules:
     """Return rules with the given number of digits.  By default, results are truncated as in FORTRAN II-D."""
     low = 10 ** (digits - 1)

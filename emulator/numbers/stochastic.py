@@ -1,10 +1,10 @@
 """The arithmetics ``stochastic:P:SEED`` and ``stochastic:BITSb:SEED``, which round decimal or binary results at
 random.
 
-:mod:`emulator.numbers.draws` defines the two rules of rounding, their sources and the random numbers.  + - * /, the
+:mod:`emulator.numbers.draws` defines the rules of rounding, their sources and the random numbers.  + - * /, the
 library functions and powers round the exact result once.  FLOAT, cards and constants are converted without randomness:
 decimal numbers are truncated, and binary numbers are rounded to nearest.  Binary numbers have the range of ``mp:BITS``,
-so ``stochastic:53b:SEED`` agrees with binary64 except beyond its range.
+so ``stochastic:53b:SEED`` has the precision of binary64 and a larger range.
 
 ``stochastic:8:1-10`` runs the seeds 1 to 10 in step (:mod:`emulator.numbers.sampled`).  Of three runs in step, the
 third rounds as the opposite of the second, as in CADNA.

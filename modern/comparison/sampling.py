@@ -1,8 +1,8 @@
 """Estimate significant digits of a program's values, and the stability of its decisions, from random runs.
 
-:func:`in_step` executes N stochastic runs on one common branch (:mod:`emulator.numbers.sampled`).  It records at every
-store the estimated digits, and at every IF how many runs would have gone each way.  :func:`independent` executes the
-runs one after the other (Monte Carlo), each on a separate branch.
+:func:`in_step` executes N stochastic runs on one common branch (:mod:`emulator.numbers.sampled`).  It records the
+estimated digits of every stored value, and at every IF the number of runs that would have taken each branch.
+:func:`independent` executes the runs one after the other (Monte Carlo), each with its own branches.
 """
 
 from __future__ import annotations

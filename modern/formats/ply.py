@@ -69,14 +69,11 @@ class _Element:
 Reader = Callable[[_Element, int], tuple[int, list[Any]]]
 
 
-def parse(data: bytes, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]:
-    """Return the exact vertices of a PLY file and the line of each vertex (in a binary file, its number from 1)."""
-    mesh = surface(data, source, with_faces=False)
-    return mesh.points, mesh.lines
-
-
 def surface(data: bytes, source: str, with_faces: bool = True) -> FileMesh:
-    """Return the exact vertices of a PLY file, and its faces unless ``with_faces`` is false."""
+    """Return the exact vertices of a PLY file, and its faces unless ``with_faces`` is false.
+
+    In place of the line of a vertex, a binary file has the number of the vertex, from 1.
+    """
     end = data.find(_END, 0, _MOST_HEADER)
     if end < 0:
         raise FileError(f"{source}: line 1, column 1: the header has no line end_header")

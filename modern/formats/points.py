@@ -50,7 +50,8 @@ def parse_bytes(data: bytes, source: str) -> Input:
         points = _npy(data, source)
         return _input(source, kind, points, range(1, len(points) + 1), "row")
     if kind == "ply":
-        return _input(source, kind, *ply.parse(data, source), "line" if b"format ascii" in data else "vertex")
+        mesh = ply.surface(data, source, with_faces=False)
+        return _input(source, kind, mesh.points, mesh.lines, "line" if b"format ascii" in data else "vertex")
     if kind == "stl":
         mesh = stl.surface_binary(data, source)
         return _input(source, kind, mesh.points, mesh.lines, "triangle")
@@ -63,14 +64,13 @@ def parse_input(text: str, source: str) -> Input:
     if kind == "deck":
         cards, notes = exact_points(deck_from_text(source, text))
         return _input(source, kind, tuple(cards.values()), cards, "card", notes)
-    if kind == "off":
-        mesh = parse_off(text, source)
+    if kind in ("off", "stl"):
+        mesh = parse_off(text, source) if kind == "off" else stl.surface(text, source, check_triangles=False)
         return _input(source, kind, mesh.points, mesh.lines)
     if kind == "json":
         points = json.parse(text, source)
         return _input(source, kind, points, range(1, len(points) + 1), "point")
-    reader = {"csv": csv.points, "obj": obj.parse, "stl": stl.parse}[kind]
-    return _input(source, kind, *reader(text, source))
+    return _input(source, kind, *(csv.points if kind == "csv" else obj.parse)(text, source))
 
 
 def parse_mesh(data: bytes, source: str) -> FileMesh:

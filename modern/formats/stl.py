@@ -79,14 +79,8 @@ def surface_binary(data: bytes, source: str) -> FileMesh:
     return FileMesh(source, tuple(indices), tuple(first_triangles), tuple(faces))
 
 
-def parse(text: str, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]:
-    """Return the distinct corners of an ASCII file as text, and the line in which each corner first appears."""
-    mesh = surface(text, source, check_triangles=False)
-    return mesh.points, mesh.lines
-
-
 def surface(text: str, source: str, check_triangles: bool = True) -> FileMesh:
-    """Return the triangles of an ASCII STL file.
+    """Return the triangles of an ASCII STL file, with the line in which each corner first appears.
 
     Raise FileError for an invalid corner and, unless ``check_triangles`` is false, for a loop without three corners.
     """

@@ -88,11 +88,7 @@ class PointTexts(LazyMembers[tuple[str, str, str]]):
     """
 
     def __init__(
-        self,
-        count: int,
-        member: Callable[[int], tuple[str, str, str]],
-        floats: Callable[[], Any],
-        numbers: Any = None,
+        self, count: int, member: Callable[[int], tuple[str, str, str]], floats: Callable[[], Any], numbers: Any = None
     ) -> None:
         super().__init__(count, member)
         self.floats = floats
