@@ -24,7 +24,7 @@ PC, FAC, CHARACTERISTIC, FIXED, WORK, SENT, SENT_EXPONENT, EVENT, ADDRESS, INDEX
 AT, DECISION, ELEMENT, COSTLY, OWED, HOPPER_EMPTY, DRAWS = range(11, 18)
 REGISTERS = 18
 
-# The reason to return before a fixed-point minus zero, which only the interpreter can hold.
+# The reason to return if a result would be a fixed-point minus zero, which only the interpreter can hold.
 AT_MINUS_ZERO = 16
 
 Row = MutableSequence[int]

@@ -33,8 +33,8 @@ MANTISSA, ACCUMULATOR = 58, 60
 # The position of a product's last digit.  The digits begin at position 80.
 PRODUCT = 99
 
-# Entry points of the library by operation.  The compiler punched the first two without a flag.  The known object deck
-# shows the entry points for fixed point; those for floating point were found in the library's code.
+# The library's entry point for each operation.  The compiler punched those of PLAIN_ENTRIES without a flag.  The known
+# object deck shows the entry points for fixed point.  Those for floating point were found in the library's code.
 PLAIN_ENTRIES = dict.fromkeys((op.TOFAC, op.TOFIX, op.SEND), TO_FAC)
 PLAIN_ENTRIES |= dict.fromkeys((op.FMFAC, op.FMFIX, op.TRANSMIT), FROM_FAC)
 ENTRIES = {op.NAMES.index(name): entry for name, entry in (OPERATIONS | FIXED).items()}
