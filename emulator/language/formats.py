@@ -104,7 +104,8 @@ def parse_format(statement: Format) -> tuple[FormatSpec, tuple[Diagnostic, ...]]
     # Error type 12 is only a warning here, because the deck still runs (p. 56).
     if widest > MAX_RECORD:
         place = statement.places[0]
-        message = f"a record of {widest} characters; at most {MAX_RECORD} are typed and 72 punched, the rest is lost"
+        lost = f"a card holds 72 of them and a typed line {MAX_RECORD}, and the rest is lost"
+        message = f"a record of this FORMAT has {widest} characters; {lost}"
         warnings.append(Diagnostic(place.card, place.column, message, 12, warning=True))
     return spec, tuple(warnings)
 
@@ -129,7 +130,7 @@ def _suggest_width(failed: _Reader) -> Refused | None:
             _Reader(failed.statement, (start, fit)).specification()
         except Refused:
             continue
-        fault = f"takes in the {_ENDS[text[start + fit]]} after its text" if fit < width else "ends within its text"
+        fault = f"includes the {_ENDS[text[start + fit]]} after its text" if fit < width else "ends within its text"
         return _refused(failed.places[begun], f"{width}H {fault}; {fit}H would fit")
     return None
 
@@ -283,6 +284,7 @@ class _Reader:
         # A text that ends with a comma, and a specification right after it, suggest that w was counted too large.
         swallowed = _SWALLOWED.search(text)
         if swallowed and swallowed.start() and self.peek() and self.peek() not in _ENDS:
-            message = f"{width}H includes a comma and none follows; write {swallowed.start()}H if it is a separator"
+            instead = f"write {swallowed.start()}H if the comma is a separator"
+            message = f"{width}H includes a comma, and no comma follows it; {instead}"
             self.warnings.append(Diagnostic(start.card, start.column, message, 11, warning=True))
         return Literal(text)

@@ -211,11 +211,11 @@ HOLLERITH = [
     ("(7HTOTAL, K,I4)", 2, "7H ends within its text; 8H would fit"),
     ("(2H(A),I4)", 2, "2H ends within its text; 3H would fit"),
     ("(I4,9H DEGREES 9/)", 5, "9H ends within its text; 10H would fit"),
-    ("(4HABC)", 2, "4H takes in the parenthesis after its text; 3H would fit"),
-    ("(70HABC)", 2, "70H takes in the parenthesis after its text; 3H would fit"),
-    ("(5HABC/I4)", 2, "5H takes in the slash after its text; 3H would fit"),
-    ("(6HABC,5HDEFGH,I4)", 2, "6H takes in the comma after its text; 3H would fit"),
-    ("(2(4HA,B),I4)", 4, "4H takes in the parenthesis after its text; 3H would fit"),
+    ("(4HABC)", 2, "4H includes the parenthesis after its text; 3H would fit"),
+    ("(70HABC)", 2, "70H includes the parenthesis after its text; 3H would fit"),
+    ("(5HABC/I4)", 2, "5H includes the slash after its text; 3H would fit"),
+    ("(6HABC,5HDEFGH,I4)", 2, "6H includes the comma after its text; 3H would fit"),
+    ("(2(4HA,B),I4)", 4, "4H includes the parenthesis after its text; 3H would fit"),
 ]
 
 
@@ -242,9 +242,9 @@ def test_correct_hollerith_count_is_not_blamed_for_another_error(text: str, word
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("(4HABC,I4)", "4H includes a comma and none follows; write 3H if it is a separator"),
-        ("(5HABC,2I4)", "5H includes a comma and none follows; write 3H if it is a separator"),
-        ("(I2,4HA , F4.1)", "4H includes a comma and none follows; write 2H if it is a separator"),
+        ("(4HABC,I4)", "4H includes a comma, and no comma follows it; write 3H if the comma is a separator"),
+        ("(5HABC,2I4)", "5H includes a comma, and no comma follows it; write 3H if the comma is a separator"),
+        ("(I2,4HA , F4.1)", "4H includes a comma, and no comma follows it; write 2H if the comma is a separator"),
     ],
 )
 def test_hollerith_count_that_includes_a_comma_gives_a_warning(text: str, words: str) -> None:
