@@ -1,4 +1,4 @@
-"""The commands with their arguments and their lines in ``--help``.
+"""Define the commands, their arguments and their lines in ``--help``.
 
 The arguments of the commands on points and on volumes are defined in ``modern/cli/shared/point_arguments.py`` and
 ``modern/cli/shared/volume_arguments.py``.  These modules import nothing that is needed only to run a command, so that

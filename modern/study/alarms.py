@@ -1,4 +1,4 @@
-"""The measure ``alarms``: which methods of error analysis notice that a program takes a wrong branch.
+"""Compute the measure ``alarms``: which methods of error analysis notice that a program takes a wrong branch.
 
 The operations of each program of a run are recorded on a tape (emulator/machine/tape.py) and repeated in other
 arithmetics along the branch that the machine took.  A decision is *wrong* if the exact value of the tested number leads
@@ -15,7 +15,7 @@ A method raises an *alarm* at a decision if it cannot confirm the target that th
 - ``double``: arithmetic with twice the digits leads to another target.
 
 If the number has no significant digit, ``cadna3``, ``cadna10`` and ``parker10`` take the branch for zero; ``vote10``
-takes the branch of the majority.  Chapter 7's e applies to the decisions that the layer ``epsilon`` changes.  It raises
+takes the branch of most samples.  Chapter 7's e applies to the decisions that the layer ``epsilon`` changes.  It raises
 an alarm if the number is within e of zero, but not zero, and zero leads to another target.  The measure records the
 least power of ten that raises an alarm as e.
 """
@@ -66,11 +66,11 @@ NO_E = 999
 class _Tally:
     """Counts of one run: its decisions, the alarms of each method, and its estimated digits.
 
-    first: the statement of the first wrong decision.  alarms, spoils: by method, the right decisions with an alarm, and
-    those that the method would change.  caught, repaired: by method, 1 if it raises an alarm at the first wrong
-    decision, and 1 if it takes the right branch there.  e_right, e_first: the least exponent of an e = 10**k that
-    raises an alarm, counted over right decisions, and at the first wrong one.  digits: estimates by method and by the
-    number of true digits.
+    first: the statement of the first wrong decision.  alarms: by method, the number of right decisions with an alarm.
+    spoils: by method, the number of right decisions that the method would change.  caught: by method, 1 if it raises an
+    alarm at the first wrong decision.  repaired: by method, 1 if it takes the right branch at the first wrong decision.
+    e_right: for each k, the number of right decisions at which e = 10**k is the least power of ten that raises an
+    alarm.  e_first: this k at the first wrong decision.  digits: the estimated digits by method and true digits.
     """
 
     tests: int = 0
@@ -160,7 +160,7 @@ def _rules(seed: int) -> Rules:
 
 
 def _estimated(drawn: Any, factor: float) -> list[tuple[float, bool, float]]:
-    """Return for each number the mean of its samples, True if it has no significant digit, and its digits.
+    """Return for each number the mean of its samples, True if no digit is significant, and its significant digits.
 
     If all samples of a number are equal, all its digits are significant.
     """

@@ -1,9 +1,9 @@
 """Find the outcome of a sample on a route: exactly one of eleven, with a detail (a location or the kind of fault).
 
 docs/explanation/studies.md describes the outcomes.  For collinear points, the programs punch only the two ends of the
-segment.  For three points or fewer, the programs punch no inside points.  Two equations describe the same plane if their
-coefficients agree within :data:`modern.comparison.difference.NEAR`; the largest error of a coefficient is recorded as a
-figure.
+segment.  For three points or fewer, the programs punch no inside points.  Two equations describe the same plane if
+their coefficients agree within :data:`modern.comparison.difference.NEAR`; a figure records the largest error of a
+coefficient.
 """
 
 from collections.abc import Mapping

@@ -111,7 +111,8 @@ class Store:
     def counts(self, *columns: str, cell: int | None = None, route: str | None = None) -> dict[tuple[Any, ...], int]:
         """Count the results by the values of columns of the index, or of tags such as ``tags.kind``.
 
-        Return the number of results for each tuple of values, sorted by the values.  cell, route: count only these.
+        Return the number of results for each tuple of values, sorted by the values.  cell, route: if given, count only
+        the results of this cell or route.
         """
         names = [_column(name) for name in columns]
         selected = {name: value for name, value in (("cell", cell), ("route", route)) if value is not None}

@@ -1,4 +1,4 @@
-"""Arguments that several commands share: inputs, the machine on which a program runs, and the outputs of results.
+"""Define the arguments that several commands share: inputs, the machine that runs a program, and outputs of results.
 
 The end of the module lists the words with which the shell can complete an argument (package argcomplete, in the extra
 ``completion``).  The lists repeat the names of examples, because reading the names from the data would be too slow.
@@ -108,7 +108,7 @@ def json_argument(parser: ArgumentParser, contents: str) -> None:
 
 
 def printed_arguments(parser: ArgumentParser, rules: str, names: str) -> None:
-    """Add the options that select the rules of a method that are applied as the paper prints them, uncorrected."""
+    """Add the options that select which rules of a method are applied as the paper prints them, not corrected."""
     texts = {
         "--literal": f"apply every {rules} as the paper prints it",
         "--printed NAME,...": f"apply only these {rules}s as printed: {names}",

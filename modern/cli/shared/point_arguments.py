@@ -1,4 +1,4 @@
-"""Arguments of the commands that read points or faces.
+"""Define the arguments of the commands that read points or faces.
 
 Like ``modern/cli/arguments.py``, this module imports nothing that is needed only to run a command.
 """

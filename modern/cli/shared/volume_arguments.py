@@ -1,4 +1,4 @@
-"""Arguments of the commands that read a volume of voxels.
+"""Define the arguments of the commands that read a volume of voxels.
 
 Like ``modern/cli/arguments.py``, this module imports nothing that is needed only to run a command.
 """

@@ -6,7 +6,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 from emulator.errors import quoted
-from modern.cli.shared.console import UsageError, counted
+from modern.cli.shared.console import UsageError
 from modern.digital.scans import Choice, Chosen, Scan, chosen, listed_labels
 from modern.digital.solids import Volume
 from modern.digital.volumes import Stated, read_scan
@@ -131,7 +131,7 @@ def _selection_lines(selection: Chosen) -> Iterator[str]:
         return
     else:
         values = f"values other than 0, of {low} to {high}"
-    count = counted(volume.count, "voxel").replace(str(volume.count), f"{volume.count:,}")
+    count = f"{volume.count:,} voxel{'s' * (volume.count != 1)}"
     yield printable(f"{volume.source}: {values}; {count}; {spacing_words(volume.world)}")
 
 

@@ -169,7 +169,7 @@ class _Rows:
 
 
 def e_name(power: int) -> str:
-    """Return the name of the method that compares with e = 10**power."""
+    """Return the name under which the report counts chapter 7's e = 10**power as a method."""
     return f"e = 10^{power}"
 
 

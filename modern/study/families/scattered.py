@@ -1,4 +1,4 @@
-"""Points drawn in a box, in a ball, on a sphere or on a cube; prisms, pyramids and points nearly in one plane.
+"""Draw points in a box, in a ball, on a sphere or on a cube, and draw prisms, pyramids and nearly flat sets.
 
 Only integers are drawn; a decimal is an integer times a power of ten.
 """
