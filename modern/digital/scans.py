@@ -98,7 +98,7 @@ def chosen(scan: Scan, choice: Choice | None = None) -> Chosen:
     if not truth.any():
         if choice.threshold is None:
             raise NoVoxels(f"{scan.source}: there are no voxels: every value is 0")
-        most, least = (_text(number) for number in (highest, choice.threshold))
+        most, least = ("infinite" if n is None else decimal_or_fraction(n) for n in (highest, choice.threshold))
         raise NoVoxels(f"{scan.source}: there are no voxels: the greatest value is {most}, below the threshold {least}")
     notes = (*scan.notes, *label_notes(scan)) if choice.labels else scan.notes
     volume = Volume(truth, scan.origin, scan.source, notes, scan.world)
@@ -210,23 +210,16 @@ def _least(kind: Any, threshold: Fraction) -> Any:
     return near
 
 
-def _range(values: NDArray[Any]) -> tuple[Fraction | None, Fraction | None]:
+def _range(values: NDArray[Any]) -> list[Fraction | None]:
     counted = _counted(values)
-    return _finite(counted.min()), _finite(counted.max())
-
-
-def _finite(number: Any) -> Fraction | None:
-    if number.dtype.kind in "iu":
-        return Fraction(int(number))
-    return Fraction(*number.as_integer_ratio()) if np.isfinite(number) else None
+    ends = counted.min(), counted.max()
+    if counted.dtype.kind in "iu":
+        return [Fraction(int(end)) for end in ends]
+    return [Fraction(*end.as_integer_ratio()) if np.isfinite(end) else None for end in ends]
 
 
 def _parts(values: NDArray[Any]) -> Iterator[NDArray[Any]]:
     return (values[part] for part in slabs(values))
-
-
-def _text(number: Fraction | None) -> str:
-    return "infinite" if number is None else decimal_or_fraction(number)
 
 
 def listed_labels(labels: Sequence[int]) -> str:

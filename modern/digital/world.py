@@ -6,6 +6,7 @@ half a step from its centre in each direction. Spacing, origin and directions ar
 hull in physical coordinates is the exact image of the hull of indices.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from decimal import Context
@@ -100,8 +101,11 @@ class World:
         if self.space not in ANATOMICAL or len(self.steps) != 3:
             return ()
         names = self.space.split("-")
-        # Assign a different direction to each axis, with the largest product of squared cosines.
-        best = max(permutations(range(3)), key=lambda order: _aligned(self.steps, order))
+        # Assign a different direction to each axis, with the largest product of cosines.
+        best = max(
+            permutations(range(3)),
+            key=lambda order: math.prod(abs(step[k]) for step, k in zip(self.steps, order, strict=True)),
+        )
         directions = []
         for step, k in zip(self.steps, best, strict=True):
             directions.append((names[k] if step[k] > 0 else _OPPOSITE[names[k]], sum(map(bool, step)) == 1))
@@ -190,13 +194,6 @@ def _numbers(what: str, values: Sequence[object], count: int) -> Position:
         return tuple(Fraction(real(value)) for value in values)
     except ValueError as error:
         raise VolumeError(f"{what}: {error}") from None
-
-
-def _aligned(steps: Sequence[Position], order: Sequence[int]) -> Fraction:
-    total = Fraction(1)
-    for step, k in zip(steps, order, strict=True):
-        total *= step[k] * step[k] / sum((number * number for number in step), Fraction(0))
-    return total
 
 
 def _length(step: Position) -> tuple[str, bool]:

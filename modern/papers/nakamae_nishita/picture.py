@@ -35,18 +35,15 @@ def plot(groups: Iterable[tuple[str, Iterable[Stroke]]]) -> str:
     """
     lines = ["IN;", "SP1;"]
     for kind, strokes in groups:
-        drawn = list(_moves(strokes))
-        lines += [kind, *drawn] if drawn else []
+        at: Point | None = None
+        for start, end in strokes:
+            if at is None:
+                lines.append(kind)
+            if start != at:
+                lines.append(f"PU{start[0]},{start[1]};")
+            lines.append(f"PD{end[0]},{end[1]};")
+            at = end
     return "\n".join((*lines, "PU;", "SP0;")) + "\n"
-
-
-def _moves(strokes: Iterable[Stroke]) -> Iterator[str]:
-    at: Point | None = None
-    for start, end in strokes:
-        if start != at:
-            yield f"PU{start[0]},{start[1]};"
-        yield f"PD{end[0]},{end[1]};"
-        at = end
 
 
 _HIGHEST_SHAPE = Fraction(3, 4)

@@ -15,11 +15,12 @@ I. Gargantini, "Linear octtrees for fast processing of three-dimensional objects
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.digital.intervals import SLAB, Grid
+from modern.digital.intervals import Grid
 
 # The halves of x and y that each quadrant covers: 0 lower, 1 upper.
 QUADRANTS = ((0, 0), (1, 0), (0, 1), (1, 1))
@@ -130,14 +131,10 @@ def divided(tree: Octree, level: int) -> int:
 
 def voxels_of(tree: Octree, shape: tuple[int, int, int]) -> NDArray[np.bool_]:
     """Return the voxels of an octree that lie in an array of the given shape, indexed [x, y, z]."""
-    array = np.zeros((1, 1, 1), dtype=np.bool_)
-    for level in range(tree.depth + 1):
-        side = tree.side >> level
-        if level:
-            array = _doubled(array, tuple(-(-length // side) for length in shape))
-        x, y, z = tree.at_level(level)
-        within = (x < array.shape[0]) & (y < array.shape[1]) & (z < array.shape[2])
-        array[x[within], y[within], z[within]] = True
+    array = np.zeros(shape, dtype=np.bool_)
+    sides = tree.side >> tree.levels
+    for (x, y, z), side in zip(tree.corners().tolist(), sides.tolist(), strict=True):
+        array[x : x + side, y : y + side, z : z + side] = True
     return array
 
 
@@ -145,17 +142,13 @@ def _full_leaves(array: NDArray[np.bool_], depth: int) -> Iterator[tuple[int, Gr
     """Yield the full cubes of an array that are in no larger full cube, level by level, starting with voxels."""
     for level in range(depth, -1, -1):
         parents = _all_of_eight(array)
-        # The array is processed in slabs along x, so that the temporary arrays stay small.
-        step = 2 * max(1, SLAB // max(1, 2 * array[0].size))
-        for first in range(0, len(array), step):
-            leaves = array[first : first + step].copy()
-            slab_parents = parents[first // 2 : (first + step) // 2]
-            not_covered = ~np.repeat(slab_parents, 2, axis=2)
-            length, width, height = (2 * size for size in slab_parents.shape)
-            for i, j in QUADRANTS:
-                leaves[i:length:2, j:width:2, :height] &= not_covered
-            x, y, z = np.unravel_index(np.flatnonzero(leaves), leaves.shape)
-            yield level, x + first, y, z
+        # A cube that lies in a full cube of twice its side is not a leaf.
+        leaves = array.copy()
+        length, width, height = (2 * size for size in parents.shape)
+        for (i, j), k in product(QUADRANTS, (0, 1)):
+            leaves[i:length:2, j:width:2, k:height:2] &= ~parents
+        x, y, z = np.unravel_index(np.flatnonzero(leaves), leaves.shape)
+        yield level, x, y, z
         if not parents.size:
             return
         array = parents
@@ -167,15 +160,6 @@ def _all_of_eight(array: NDArray[np.bool_]) -> NDArray[np.bool_]:
         low, high = ((slice(None),) * axis + (slice(k, length, 2),) for k in (0, 1))
         array = array[low] & array[high]
     return array
-
-
-def _doubled(array: NDArray[np.bool_], shape: tuple[int, ...]) -> NDArray[np.bool_]:
-    doubled = np.empty(shape, dtype=np.bool_)
-    columns = np.repeat(array, 2, axis=2)[:, :, : shape[2]]
-    for i, j in QUADRANTS:
-        quadrant = doubled[i::2, j::2]
-        quadrant[...] = columns[: quadrant.shape[0], : quadrant.shape[1]]
-    return doubled
 
 
 def _spread(numbers: Grid, count: int) -> Grid:

@@ -44,14 +44,6 @@ def test_trees_are_equal_if_side_and_leaves_are() -> None:
     assert full != "full"
 
 
-def test_slabs_of_any_size_give_the_same_tree(monkeypatch) -> None:
-    array = np.random.default_rng(3).random((23, 9, 14)) < 0.9
-    array[4:20, :8, :8] = True
-    whole = octree(array)
-    monkeypatch.setattr(trees, "SLAB", 1)
-    assert octree(array) == whole
-
-
 @FEW
 @given(solids(), solids())
 def test_an_intersection_agrees_with_that_of_the_arrays(first: Any, second: Any) -> None:
