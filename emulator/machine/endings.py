@@ -136,7 +136,7 @@ def _loop(ending: Ending) -> str:
     span = f"card {first}" if first == last else f"cards {first} to {last}"
     word = "statement" if len(labels) == 1 else "statements"
     among = f", {word} {', '.join(labels[:12])}{' ...' if len(labels) > 12 else ''}" if labels else ""
-    return f"; the last ones {'repeat' if ending.repeats else 'are on'} {span}{among}"
+    return f"; the last statements {'form a loop on' if ending.repeats else 'are on'} {span}{among}"
 
 
 def looped(

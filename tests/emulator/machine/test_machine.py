@@ -57,7 +57,7 @@ def test_an_empty_hopper_ends_a_run_only_between_data_sets() -> None:
 def test_the_message_about_the_limit_names_the_last_loop(lines: list[str], limit: int, repeated: str) -> None:
     ending = run(*lines, limit=limit).ending
     assert (ending.kind, ending.normal) == ("limit", False)
-    assert ending.message == f"deck.f: stopped after {limit} statements; the last ones repeat {repeated}"
+    assert ending.message == f"deck.f: stopped after {limit} statements; the last statements form a loop on {repeated}"
 
 
 @pytest.mark.parametrize("limit", [2, 3, 7, 60])

@@ -91,8 +91,8 @@ def test_an_operation_far_beyond_the_limit_is_not_done(statement: str, monkeypat
 def test_the_message_about_a_costly_loop_gives_the_work() -> None:
     ending = machine("A=.5", "1 B=EXP(A)", "GO TO 1", "END", limit=1_000).run().ending
     assert ending.message == (
-        "deck.f: stopped after the work of 1000 statements, 469 of it for costly operations; the last ones repeat "
-        "cards 2 to 3, statement 1"
+        "deck.f: stopped after the work of 1000 statements, 469 of it for costly operations; "
+        "the last statements form a loop on cards 2 to 3, statement 1"
     )
 
 

@@ -179,7 +179,7 @@ def test_switch_1_and_the_limit_determine_how_long_a_run_continues(capsys) -> No
     deck = MACHINE_RUNS / "39_prism_n10" / "deck.cards"
     code, out, err = call(capsys, "hull", str(deck), "--limit", "100000")
     assert code == 1
-    assert "program3.f: stopped after 100000 statements; the last ones repeat cards" in err
+    assert "program3.f: stopped after 100000 statements; the last statements form a loop on cards" in err
     assert "CONVEX HULL" in out
 
 

@@ -44,4 +44,4 @@ def test_every_card_and_typed_line_is_that_of_the_machine(folder: Path) -> None:
         else:
             assert device == "endless"
             assert steps[program].ending.kind == "limit"
-            assert "the last ones repeat" in steps[program].ending.message
+            assert "the last statements form a loop on" in steps[program].ending.message
