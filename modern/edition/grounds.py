@@ -29,7 +29,6 @@ from emulator.errors import CompileError, EmulatorError
 from emulator.language.cards import Deck, deck_from_lines, deck_from_text
 from emulator.language.compiler import compile_deck
 from emulator.language.objectcode import Program
-from emulator.language.parser import parse
 from emulator.language.statements import Source, sources
 from emulator.machine.endings import Ending
 from emulator.machine.machine import Machine
@@ -139,15 +138,11 @@ def check_row(row: Row) -> Proof:
         return Proof(row.id, False, f"unknown kind of ground: {kind!r}")
     holds, message = test(row, None)
     if holds and row.layer == "ocr":
-        for step in _several_steps(row):
+        row_steps = steps(row) or ()
+        for step in row_steps if len(row_steps) > 1 else ():
             if not test(row, step)[0]:
                 return Proof(row.id, False, f"{kind}: {step.pair.lemma!r} for {step.pair.witness!r} is not needed")
     return Proof(row.id, holds, f"{kind}: {message}")
-
-
-def _several_steps(row: Row) -> tuple[Step, ...]:
-    made = steps(row) or ()
-    return made if len(made) > 1 else ()
 
 
 def _name(row: Row) -> str:
@@ -177,17 +172,13 @@ def _without(row: Row, step: Step | None) -> Deck:
 
 
 def _compiled(row: Row, step: Step | None) -> tuple[Program | None, str]:
+    """Return the program without a row or a step of it, or None and the first error."""
     try:
-        return _program(_without(row, step))
-    except EmulatorError as error:
-        return None, str(error)
-
-
-def _program(deck: Deck) -> tuple[Program | None, str]:
-    try:
-        return compile_deck(deck), ""
+        return compile_deck(_without(row, step)), ""
     except CompileError as error:
         return None, error.diagnostics[0].message
+    except EmulatorError as error:
+        return None, str(error)
 
 
 def _whole(row: Row) -> Program:
@@ -195,15 +186,8 @@ def _whole(row: Row) -> Program:
 
 
 def _parse(row: Row, step: Step | None) -> tuple[bool, str]:
-    try:
-        deck = _without(row, step)
-        wrong = [message for message in parse(deck).diagnostics if not message.warning]
-        message = wrong[0].message if wrong else _program(deck)[1]
-    except EmulatorError as error:
-        message = str(error)
-    if message:
-        return True, f"without the row: {message}"
-    return False, "without the row the deck still compiles"
+    program, message = _compiled(row, step)
+    return program is None, f"without the row: {message}" if message else "without the row the deck still compiles"
 
 
 def _cosmetic(row: Row, step: Step | None) -> tuple[bool, str]:
@@ -344,7 +328,7 @@ def _forced(row: Row, step: Step | None) -> tuple[bool, str]:
     names = list(row.ground["rename"])
     exchange = dict(zip(names[::2], names[1::2], strict=True))
     with_row = _card(_built(row), card)
-    expected = _renamed(_card(_built(row), sibling), exchange)
+    expected = re.sub(r"[A-Z][A-Z0-9]*", lambda m: exchange.get(m[0], m[0]), _card(_built(row), sibling))
     without_row = _card(_without(row, step), card)
     if with_row != expected:
         return False, f"card {card} differs from card {sibling} with names exchanged"
@@ -392,7 +376,3 @@ def _card(deck: Deck, place: str) -> str:
 def _index(statements: Sequence[Source], place: str) -> int:
     label, _, steps = place.partition("+")
     return next(i for i, s in enumerate(statements) if s.label == label) + int(steps or 0)
-
-
-def _renamed(text: str, exchange: dict[str, str]) -> str:
-    return re.sub(r"[A-Z][A-Z0-9]*", lambda m: exchange.get(m[0], m[0]), text)

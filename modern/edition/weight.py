@@ -143,7 +143,8 @@ def judged(variant: Variant, known: dict[str, Bench]) -> str:
         return kind
     if equation_of(variant.program, variant.place):
         return "equation"
-    return "sibling" if _unlike(variant) else "nothing"
+    has_form = variant.reads and _forms()[_form(variant.reads)]
+    return "sibling" if alike(variant.was) >= 2 and not has_form else "nothing"
 
 
 def _numbers(text: str) -> set[str]:
@@ -241,10 +242,6 @@ def alike(text: str) -> int:
     Two statements have the same form if exchanging names and numbers makes them equal.
     """
     return max(_forms()[_form(text)] - 1, 0)
-
-
-def _unlike(variant: Variant) -> bool:
-    return alike(variant.was) >= 2 and not (variant.reads and _forms()[_form(variant.reads)])
 
 
 def ordered() -> list[Variant]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import islice
 
 from emulator.errors import EmulatorError, Refused
@@ -41,32 +41,34 @@ def parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     commands = result.add_subparsers(dest="command", required=True)
-    show = commands.add_parser("show", help="execute one statement and print what it types, punches and stores")
-    show.add_argument("verb", choices=VERBS)
-    show.add_argument("format", help='a FORMAT, such as "(I4,F8.3)"')
-    show.add_argument("--values", default="", help='the numbers of the list, such as --values="12 -.25000000E+01"')
-    show.add_argument("--card", action="append", default=[], help="a data card, or a line typed for ACCEPT")
-    chapter6 = commands.add_parser(
-        "chapter6",
-        help="run the examples of chapter 6, also without each emendation; compare with the committed results",
-    )
-    chapter6.add_argument("--write", action="store_true", help="replace the committed results")
-    timing = commands.add_parser(
-        "times", help="measure the simulated time of runs; compare it with the committed results"
-    )
-    timing.add_argument("--write", action="store_true", help="replace the committed results")
-    commands.add_parser("programs", help="run all programs on the library; compare the output with the emulator's")
-    repeat = commands.add_parser("measure", help="repeat the stored statements; compare them with the emulator")
+
+    def command(name: str, run: Callable[[argparse.Namespace], int], what: str) -> argparse.ArgumentParser:
+        added = commands.add_parser(name, help=what)
+        added.set_defaults(run=run)
+        return added
+
+    one = command("show", show, "execute one statement and print what it types, punches and stores")
+    one.add_argument("verb", choices=VERBS)
+    one.add_argument("format", help='a FORMAT, such as "(I4,F8.3)"')
+    one.add_argument("--values", default="", help='the numbers of the list, such as --values="12 -.25000000E+01"')
+    one.add_argument("--card", action="append", default=[], help="a data card, or a line typed for ACCEPT")
+    for committed in (
+        command(
+            "chapter6",
+            run_chapter6,
+            "run chapter 6, also without each emendation; compare with the committed results",
+        ),
+        command("times", run_times, "measure the simulated time of runs; compare it with the committed results"),
+    ):
+        committed.add_argument("--write", action="store_true", help="replace the committed results")
+    command("programs", run_programs, "run all programs on the library; compare the output with the emulator's")
+    repeat = command("measure", run_measure, "repeat the stored statements; compare them with the emulator")
     repeat.add_argument(
-        "--random",
-        type=int,
-        default=0,
-        metavar="N",
-        help="also compare N random statements, N random fields and N random operations",
+        "--random", type=int, default=0, metavar="N", help="also compare N random statements, N fields and N operations"
     )
     repeat.add_argument("--seed", type=int, default=1, help="the seed of the random statements (default: 1)")
-    compiled = commands.add_parser(
-        "compile", help="compare the object code of a program with the program in IBM's object deck"
+    compiled = command(
+        "compile", run_compile, "compare the object code of a program with the program in IBM's object deck"
     )
     compiled.add_argument("source", help="the file of the program")
     return result
@@ -99,7 +101,12 @@ def _committed(path: str, text: str, write: bool) -> int:
     return int(not same)
 
 
-def run_programs() -> int:
+def run_times(options: argparse.Namespace) -> int:
+    """Measure the simulated time of runs on the library.  Return 1 if the results differ."""
+    return _committed(times.FILE, times.table(), options.write)
+
+
+def run_programs(options: argparse.Namespace) -> int:
     """Compare all programs on the library and on the emulator.  Return 1 if a card or a line differs."""
     library()
     exit_code = 0
@@ -145,19 +152,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command of the given arguments.  Print a line and return 0 if the simulator or the deck is missing."""
     options = parser().parse_args(arguments)
     try:
-        match options.command:
-            case "show":
-                return show(options)
-            case "chapter6":
-                return run_chapter6(options)
-            case "measure":
-                return run_measure(options)
-            case "times":
-                return _committed(times.FILE, times.table(), options.write)
-            case "programs":
-                return run_programs()
-            case _:
-                return run_compile(options)
+        exit_code: int = options.run(options)
+        return exit_code
     except Unavailable as reason:
         print(f"skipped: {reason}")
         return 0
