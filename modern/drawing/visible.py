@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Final, Literal, TypeVar
 
-from modern.geometry.mesh import sides
+from modern.geometry.mesh import cycle_of, sides
 
 N = TypeVar("N", int, Fraction)
 
@@ -90,12 +90,7 @@ def contour(faces: Sequence[tuple[int, ...]], signs: Sequence[int]) -> tuple[int
     """
     directed = {(a, b) for face, sign in zip(faces, signs, strict=True) if sign > 0 for a, b in sides(face)}
     successor = {a: b for a, b in directed if (b, a) not in directed}
-    if not successor:
-        return ()
-    chain = [min(successor)]
-    while successor[chain[-1]] != chain[0]:
-        chain.append(successor[chain[-1]])
-    return tuple(chain)
+    return tuple(cycle_of(successor)) if successor else ()
 
 
 def _kind(face_indices: Sequence[int], signs: Sequence[int], flat: Callable[[int, int], bool]) -> Kind:

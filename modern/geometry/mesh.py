@@ -1,6 +1,6 @@
 """The surface of a hull as vertices and polygons, for mesh formats and drawings."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import chain, repeat
@@ -113,6 +113,14 @@ def mesh(hull: Hull) -> Mesh:
 def sides(face: Sequence[int]) -> Iterator[tuple[int, int]]:
     """Yield the edges of a face as pairs of vertices, in the face's order."""
     return zip(face, (*face[1:], face[0]), strict=True)
+
+
+def cycle_of(successors: Mapping[int, int]) -> list[int]:
+    """Return the only cycle of a mapping from each vertex to the next, beginning with its smallest vertex."""
+    cycle = [min(successors)]
+    while successors[cycle[-1]] != cycle[0]:
+        cycle.append(successors[cycle[-1]])
+    return cycle
 
 
 def _cycle(lines: list[tuple[int, ...]], count: int) -> tuple[int, ...]:

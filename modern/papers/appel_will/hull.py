@@ -10,7 +10,7 @@ from modern.geometry.vectors import area_vector, dot, independent, minus
 from modern.papers.appel_will.corners import Preprocessing, Rule, preprocess
 from modern.papers.appel_will.loops import LoopTable, find_loops, surface
 from modern.papers.appel_will.star import Deleted, IntPoint, Pair, StarTest, as_printed, convex_edges, in_one_pass
-from modern.papers.appel_will.surfaces import Fates, Surface, check_surfaces, fates
+from modern.papers.appel_will.surfaces import Fates, Surface, check_surfaces, fates_by_points
 
 # Rules that can be applied as printed, although wrong: the star test of Fig. 12 and five steps of the appendix.
 PRINTED = ("star", "step3", "step5", "step7", "step9", "step10")
@@ -106,7 +106,11 @@ class Assembled:
 
     def fates(self, original: Sequence[Surface]) -> Fates:
         """Return what becomes of each surface of the given polyhedron on the hull (Fig. 4)."""
-        return fates(self.points, original, self.surfaces)
+        in_planes = []
+        for face in self.surfaces:
+            normal, origin = area_vector(self.points, face), self.points[face[0]]
+            in_planes.append([k for k, point in enumerate(self.points) if not dot(normal, minus(point, origin))])
+        return fates_by_points(original, in_planes, self.surfaces)
 
 
 def appel_will(points: Points, surfaces: Sequence[Surface] = (), method: Method = CORRECTED) -> Assembled:

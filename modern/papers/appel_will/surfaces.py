@@ -1,12 +1,12 @@
 """The surfaces of the given polyhedron (Fig. 4): orientation, normals, and what becomes of them on the hull."""
 
 from collections import defaultdict
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 from emulator.errors import EmulatorError
 from modern.geometry.mesh import sides
-from modern.geometry.vectors import area_vector, cross, dot, minus
+from modern.geometry.vectors import area_vector, dot, minus
 from modern.papers.appel_will.star import IntPoint, Pair
 
 # The indices of a surface's points, from 0, in the order in which they are connected.
@@ -43,22 +43,14 @@ class Fates:
     added: tuple[int, ...]
 
 
-def fates(points: Sequence[IntPoint], original: Sequence[Surface], hull: Sequence[Surface]) -> Fates:
-    return _fates(original, hull, lambda surface, number: _lies_in(points, surface, hull[number]))
-
-
 def fates_by_points(original: Sequence[Surface], faces: Sequence[Collection[int]], hull: Sequence[Surface]) -> Fates:
-    """Return what becomes of the given surfaces on a hull whose nearly coplanar faces were merged.
+    """Return what becomes of the given surfaces on a hull, some of whose faces may have been merged.
 
-    A given surface lies in the merged face that contains all of its points. ``faces`` has all points of each merged
-    face, and ``hull`` the points around it.
+    A given surface lies in the face that contains all of its points. ``faces`` has all points in each face or its
+    plane, and ``hull`` the points around each face.
     """
-    return _fates(original, hull, lambda surface, number: set(faces[number]) >= set(surface))
-
-
-def _fates(original: Sequence[Surface], hull: Sequence[Surface], lies_in: Callable[[Surface, int], bool]) -> Fates:
     numbers = range(len(hull))
-    of = tuple(next((number for number in numbers if lies_in(surface, number)), None) for surface in original)
+    of = tuple(next((number for number in numbers if set(faces[number]) >= set(s)), None) for s in original)
     unchanged = (k for k, number in enumerate(of) if number is not None and set(original[k]) == set(hull[number]))
     return Fates(of, frozenset(unchanged), tuple(number for number in numbers if number not in of))
 
@@ -136,10 +128,3 @@ def _one_sense(surfaces: Sequence[Surface], surfaces_at: dict[frozenset[int], li
         isolated = next(number for number in range(len(surfaces)) if number not in oriented_so_far)
         raise MapError(f"surface {isolated + 1}: it is not connected with surface 1")
     return [oriented_so_far[number] for number in range(len(surfaces))]
-
-
-def _lies_in(points: Sequence[IntPoint], surface: Surface, face: Surface) -> bool:
-    """Return True if a surface of the polyhedron lies in the plane of a face of the hull."""
-    origin = points[face[0]]
-    normal = cross(minus(points[face[1]], origin), minus(points[face[2]], origin))
-    return not any(dot(normal, minus(points[index], origin)) for index in surface)

@@ -16,7 +16,7 @@ from modern.digital.measures import Measures, measures
 from modern.digital.solids import NoVoxels, Volume, VolumeError, Voxels, as_volume
 from modern.digital.world import World, decimal_or_fraction
 from modern.exact_hull import exact_hull
-from modern.geometry.mesh import Mesh
+from modern.geometry.mesh import Mesh, cycle_of
 from modern.papers.kovalevsky_schulz.cells import CellList, Economical, IntPoint, Plane, expanded
 from modern.papers.kovalevsky_schulz.corners import NEIGHBOURS, VERTICES, Of, Points, corners_by_neighbours
 from modern.papers.kovalevsky_schulz.polyhedron import VISIBLE, Coplanar, Flat, convex_polyhedron, flat_hull
@@ -44,13 +44,7 @@ def merged(cells: CellList) -> CellList:
         if group_1 != group_2:
             successors[group_1][edge.start] = edge.end
             successors[group_2][edge.end] = edge.start
-    cycles = []
-    for successor in successors:
-        cycle = [min(successor)]
-        while successor[cycle[-1]] != cycle[0]:
-            cycle.append(successor[cycle[-1]])
-        cycles.append(cycle)
-    return _renumbered(cells, cycles)
+    return _renumbered(cells, [cycle_of(successor) for successor in successors])
 
 
 def straightened(cells: CellList) -> CellList:

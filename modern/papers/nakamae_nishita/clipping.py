@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from modern.geometry.mesh import sides
+from modern.geometry.mesh import cycle_of, sides
 from modern.geometry.vectors import Vector, minus
 from modern.papers.nakamae_nishita.polyhedron import Figure, Polyhedron, SceneError
 from modern.papers.nakamae_nishita.projection import Observer
@@ -86,10 +86,7 @@ def _clipped(polyhedron: Polyhedron, depths: Sequence[Fraction], observer: Obser
     ahead = {b: a for a, b in edges if (b, a) not in edges}
     groups = [polyhedron.joined[order] for order in orders] if polyhedron.joined else []
     if ahead:
-        chain = [min(ahead)]
-        while ahead[chain[-1]] != chain[0]:
-            chain.append(ahead[chain[-1]])
-        faces.append(tuple(chain))
+        faces.append(tuple(cycle_of(ahead)))
         groups += [max(groups) + 1] if groups else []
     # Renumber the vertices that remain.
     used = sorted({place for face in faces for place in face})
