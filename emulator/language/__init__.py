@@ -13,14 +13,15 @@ To add a kind of statement:
    ``_Builder`` that makes the dataclass.  A rule named like a keyword of Python needs an alias (``-> if_``).
 5. ``foreign.py``: remove the statement if it is listed there as one of another FORTRAN.
 6. ``compiler.py``: a case of ``_Translation._body`` that emits operations, an entry of ``_NO_DO_END`` if no DO may end
-   with the statement, and an entry of ``_EFFECTS`` if a trace should show its effect.
-7. ``emulator/translation/steps.py`` and ``writers.py``: a step, if the statement needs a new operation.  mypy reports
-   an error until step 6 is done.
+   with the statement, and an entry of ``_EFFECTS`` if a trace should show its effect.  mypy reports an error until the
+   case exists.
+7. ``emulator/translation/steps.py`` and ``writers.py``: a step, if the statement needs a new operation.
 8. Only if no operation fits: a name and its meaning in ``objectcode.py`` (``MEANINGS`` and the names below it in the
    same order, and ``flatten`` if it branches), its action in ``emulator/machine/interpreter.py``, or in
    ``session.py`` or ``devices.py`` if it concerns the operator or a device, the same in ``emulator/compiled/kernel.py``
    or ``NOT_HERE`` in ``emulator/compiled/deck.py``, and its time in ``emulator/machine/timing.py``.  An operation that
-   branches needs an entry in ``emulator/machine/postdominators.py`` and in ``_DECISIONS`` of ``divergence.py`` as well.
+   branches also needs a case in ``successors`` of ``control_flow.py`` and, if it has several targets, an entry in
+   ``_DECISIONS`` of ``emulator/machine/comparison.py``.
 9. Tests: ``tests/emulator/language/`` (``test_statements.py``, ``test_parser.py``, ``test_compiler_code.py``,
    ``test_compiler_messages.py``), ``tests/emulator/test_period.py``, which runs programs on both engines, and
    ``tests/support/decks_at_random.py``.
@@ -30,8 +31,8 @@ To add a FORMAT code that transfers a number:
 1. ``emulator/numbers/fields.py``: its letter in ``FieldKind``, and functions that read and write the field, with the
    column arithmetic in ``emulator/numbers/columns.py``.
 2. ``formats.py``: the letter in ``_KINDS`` and its widths in ``_Reader.one``.  Remove it from ``FOREIGN_FIELDS`` in
-   ``foreign.py``.
-   Also add the letter in ``_Reader.one`` to the message that lists the codes and to the test for decimals.
+   ``foreign.py``.  In ``_Reader.one``, also add the letter to the message that lists the codes and to the test for
+   decimals.
 3. ``emulator/machine/devices.py`` and ``emulator/compiled/devices.py``: call the new functions for an ITEM.  The
    constants at the top of ``compiled/devices.py``, and ``_KINDS`` and ``WAYS`` in ``compiled/runner.py``, number the
    kinds.
@@ -39,7 +40,7 @@ To add a FORMAT code that transfers a number:
 5. Tests: ``tests/emulator/language/test_formats.py`` and ``tests/emulator/numbers/test_fields.py``.
 
 A code that transfers no number, like X and H, is a class next to ``Literal`` in ``formats.py`` and a member of
-``Spec``.  It needs a case in ``_advance`` of ``emulator/machine/forms.py``, ``_forms`` of
+``Spec``.  It needs a case in ``_pass_spec`` of ``emulator/machine/forms.py``, ``_forms`` of
 ``emulator/compiled/runner.py``, both ``devices.py``, ``layout`` of ``emulator/translation/writers.py`` and its
 runtimes, and in ``FormatSpec.widths`` and ``positions``.
 """
