@@ -5,8 +5,10 @@ turns the error into an exit code.
 """
 
 import sys
+import zipfile
 from collections.abc import Callable, Mapping
 from functools import cache
+from io import BytesIO
 from pathlib import Path
 from typing import Any, Final
 
@@ -40,6 +42,16 @@ def fill(frame: str, **texts: str) -> str:
     return frame
 
 
+def zipped(files: Mapping[str, bytes], prefix: bytes = b"", compression: int = zipfile.ZIP_DEFLATED) -> bytes:
+    """Return ``prefix`` followed by a zip archive of files, which are all dated 1980-01-01."""
+    buffer = BytesIO()
+    buffer.write(prefix)
+    with zipfile.ZipFile(buffer, "w") as archive:
+        for name, data in sorted(files.items()):
+            archive.writestr(zipfile.ZipInfo(name), data, compression)
+    return buffer.getvalue()
+
+
 def check_replaceable(folder: Path, marker: str, kind: str) -> None:
     """Raise BuildError unless a build may replace a folder.
 
@@ -52,10 +64,7 @@ def check_replaceable(folder: Path, marker: str, kind: str) -> None:
 
 @cache
 def citation() -> Mapping[str, Any]:
-    """Return the fields of CITATION.cff (YAML).  A date is a ``datetime.date``.
-
-    Raise BuildError if PyYAML is not installed.
-    """
+    """Return the fields of CITATION.cff; a date is a ``datetime.date``. Raise BuildError without PyYAML."""
     try:
         import yaml
     except ImportError:

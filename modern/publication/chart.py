@@ -75,9 +75,7 @@ class Landing:
 
 @dataclass(frozen=True, slots=True)
 class Page:
-    """A page: its boxes, the lines that leave their exits, and the connectors through which jumps from elsewhere
-    arrive.
-    """
+    """A page: its boxes, the lines that leave them, and the connectors through which other jumps arrive."""
 
     height: int
     boxes: tuple[Placed, ...]
@@ -170,9 +168,7 @@ def _breaks(flow: Flow, height: int) -> list[tuple[int, int]]:
 
 @dataclass(frozen=True, slots=True)
 class _Rail:
-    """The vertical line that all jumps to a box share on one side, with the first and the last box that the line
-    passes.
-    """
+    """The vertical line that all jumps to a box share on one side, with the first and last box it passes."""
 
     target: int
     side: Where
@@ -290,10 +286,7 @@ def _rails(flow: Flow, inside: range) -> list[_Rail]:
 
 
 def _lanes(rails: Sequence[_Rail]) -> dict[tuple[int, Where], int]:
-    """Assign each rail to a lane, the shortest rail first.
-
-    A rail without a free lane is omitted; connectors replace its line.
-    """
+    """Assign each rail to a lane, the shortest first, but omit a rail without a free lane."""
     taken: dict[tuple[Where, int], list[_Rail]] = {}
     lanes: dict[tuple[int, Where], int] = {}
     for rail in sorted(rails, key=lambda r: (r.last - r.first, r.first, r.target)):

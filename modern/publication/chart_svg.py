@@ -36,9 +36,9 @@ _SLANT = 8  # the horizontal offset of the slanted sides of the symbol for input
 
 
 def chart_svg(chart: Chart, page: int | None = None, link: Link | None = None) -> str:
-    """Draw one page of a chart, counted from 1, or all pages below each other. Raise IndexError for a wrong page.
+    """Draw one page of a chart, counted from 1, or all pages below each other.
 
-    ``link`` returns the address to which a box links.
+    ``link`` returns the address to which a box links. Raise IndexError for a page that does not exist.
     """
     if page is not None and not 1 <= page <= len(chart.pages):
         raise IndexError(page)

@@ -23,11 +23,11 @@ from modern.edition import programs
 from modern.edition.chapter6 import input_deck
 from modern.edition.sources import read
 from modern.formats.points import parse_bytes
-from modern.publication.building import ROOT, BuildError, fill
+from modern.publication.building import ROOT, BuildError, fill, zipped
 from modern.publication.commentary import commentary
 from modern.publication.desk import Answer, Desk
 from modern.publication.parting import parted
-from modern.publication.pyz import EPOCH, files_of
+from modern.publication.pyz import files_of
 
 SOURCE = ROOT / "docs" / "console"
 PERIOD = ROOT / "tests" / "data" / "period"
@@ -188,11 +188,7 @@ def _is_loaded(name: str) -> bool:
 
 def _stored(files: Mapping[str, bytes]) -> bytes:
     """Return an uncompressed archive of the files that a page needs; the whole download is compressed later."""
-    buffer = BytesIO()
-    with zipfile.ZipFile(buffer, "w") as archive:
-        for name, data in sorted((name, data) for name, data in files.items() if _is_loaded(name)):
-            archive.writestr(zipfile.ZipInfo(name, EPOCH), data)
-    return buffer.getvalue()
+    return zipped({name: data for name, data in files.items() if _is_loaded(name)}, compression=zipfile.ZIP_STORED)
 
 
 def _period() -> Mapping[str, str]:

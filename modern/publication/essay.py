@@ -53,10 +53,7 @@ def plane_values(arithmetic: str, points: Sequence[Sequence[int]]) -> tuple[str,
 
 
 def plane_row(x: int) -> tuple[str, ...]:
-    """Return D of the figure's plane exactly and in eight digits, and the values at its points in eight digits.
-
-    ``x`` is the coordinate x of the first point.
-    """
+    """Return D of the plane for a value of x, exactly and in eight digits, and the values in eight digits."""
     points = ((x, *FIRST), *CORNERS)
     (exact, _), (machine, values) = (plane_values(name, points) for name in ("exact", "truncating"))
     return exact, machine, *values

@@ -101,10 +101,7 @@ def homes() -> dict[str, tuple[int, str]]:
 
 
 def rest() -> tuple[Row, ...]:
-    """Return the emendations of chapter 6 that change no card.
-
-    They remove text between the cards, such as page numbers.
-    """
+    """Return the emendations that change no card of chapter 6, but text between cards, such as page numbers."""
     return tuple(row for row in load_chapter().text.rows if row.id not in homes())
 
 
@@ -172,10 +169,7 @@ def _source(family: Sequence[Segments]) -> Source:
 
 
 def differing(expected: str, actual: str) -> Spans:
-    """Return the spans of ``actual`` that differ from ``expected``.
-
-    If ``actual`` only lacks characters, its whole length is one span.
-    """
+    """Return the spans of ``actual`` that differ from ``expected``: the whole text if it only lacks characters."""
     if expected == actual:
         return ()
     codes = SequenceMatcher(None, expected, actual, autojunk=False).get_opcodes()

@@ -20,10 +20,7 @@ Side = Literal["left", "down", "right"]
 
 @dataclass(frozen=True, slots=True)
 class Exit:
-    """An exit of a box.
-
-    ``taken`` is the condition of the exit, empty if the box has only one exit. ``target`` is the index of a box.
-    """
+    """An exit of a box: its condition ``taken`` (empty for a single exit), its side, and the index of its target."""
 
     taken: str
     side: Side
@@ -55,9 +52,7 @@ class Flow:
 
     @cached_property
     def arrivals(self) -> tuple[tuple[tuple[int, int], ...], ...]:
-        """The exits that lead to each box, as pairs: the index of the box that the exit leaves, and the index of the
-        exit.
-        """
+        """The exits that lead to each box, as pairs of the index of a box and the index of its exit."""
         arrivals: list[list[tuple[int, int]]] = [[] for _ in self.boxes]
         for place, box in enumerate(self.boxes):
             for k, way in enumerate(box.exits):
@@ -65,19 +60,14 @@ class Flow:
         return tuple(map(tuple, arrivals))
 
     def table(self) -> tuple[tuple[str, str, str], ...]:
-        """Return every transition as three texts: the name of a box, the condition of the exit, and the name of the
-        target.
-        """
+        """Return every transition as three texts: the name of a box, a condition, and the name of the target."""
         return tuple(
             (box.name, way.taken or "next", self.boxes[way.target].name) for box in self.boxes for way in box.exits
         )
 
 
 def flow(program: Program) -> Flow:
-    """Return the control flow of a program.
-
-    A run can also end at a READ without a card; the flow does not show this end.
-    """
+    """Return the control flow of a program, without the end of a run at a READ that finds no card."""
     parts = _parts(program)
     return Flow(program.source, _merged(_forwarded([_box(program, part, parts) for part in parts])))
 

@@ -84,9 +84,7 @@ class Weight:
 
 @cache
 def weights(program: str) -> dict[int, Weight]:
-    """Return the weights of a program's cards by card number. Return an empty mapping for a program that was not
-    measured.
-    """
+    """Return the weights of a program's cards by card number; a program that was not measured has none."""
     with TABLE.open(encoding="utf-8", newline="") as file:
         return {
             int(row["card"]): Weight(tuple(int(row[check]) for check in DETECTED_BY), row["formula"])

@@ -49,10 +49,7 @@ class Work:
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """A file or folder of the deposit.
-
-    ``licence`` is the address of a licence, or a sentence about the rights.  A folder has no ``media_type``.
-    """
+    """A file or folder of the deposit. ``licence`` is an address or a sentence about the rights."""
 
     description: str
     licence: str

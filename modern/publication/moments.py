@@ -38,10 +38,7 @@ LEGEND = (
 
 @dataclass(frozen=True, slots=True)
 class State:
-    """The points and faces in a program's variables.
-
-    The vertices come first among the points; ``vertices`` is their number.
-    """
+    """The points and faces in a program's variables. The first ``vertices`` points are the vertices."""
 
     points: tuple[Point, ...] = ()
     vertices: int = 0
@@ -76,9 +73,7 @@ class Moment:
     cloud: tuple[Point, ...]
 
     def caption(self) -> str:
-        """Return a sentence that names the example, the number of statements and the highlighted variables with their
-        values.
-        """
+        """Return a sentence with the example, the number of statements and the highlighted variables."""
         names = ", ".join(mark.name for mark in self.marks if mark.name)
         faces, count = len(self.after.faces), len(self.after.points)
         points = f"{count} point{'s' * (count != 1)}"
@@ -88,10 +83,7 @@ class Moment:
 
 @cache
 def moments(program: str) -> Mapping[int, Moment]:
-    """Return the moments of a built-in program by the first card of their block.
-
-    A block at whose end the program holds no points has no moment.
-    """
+    """Return the moments of a program by the first card of their block. A block without points has no moment."""
     result: dict[int, Moment] = {}
     blocks = commentary(program).blocks
     for run in reversed(runs(program)):

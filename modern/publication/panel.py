@@ -87,10 +87,7 @@ def picture(session: Session, state: tuple[list[Any], list[Any]] | None = None) 
 
 
 def number(session: Session, field: int, state: tuple[list[Any], list[Any]] | None = None) -> float | None:
-    """Return the contents of a field as a float, or None if the field is undefined.
-
-    For ``state`` see :func:`picture`.
-    """
+    """Return the present value of a field, or its value in a ``state``, as a float; None if it is undefined."""
     values, kinds = state or (session.state.values, session.state.kinds)
     value, kind = values[field], kinds[field]
     if kind == UNDEFINED:
@@ -242,10 +239,7 @@ class Record:
             self.stages.append(picture(session) | {"final": self._is_final})
 
     def _recognise(self, line: Line, session: Session) -> None:
-        """Compare the state of the run with the states that were kept before the same statement.
-
-        A run that returns to an earlier state repeats itself.
-        """
+        """Compare the state of the run with the states kept before the same statement; equal states mean a loop."""
         count, state, numbers = len(self.times), session.state, session.options.numbers
         if session.switches != self._switches:
             self._switches = list(session.switches)

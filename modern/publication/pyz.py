@@ -8,15 +8,13 @@ import sys
 import zipfile
 from collections.abc import Iterator, Sequence
 from importlib.metadata import distribution
-from io import BytesIO
 from pathlib import Path
 
-from modern.publication.building import DIST, BuildError, newest_wheel, run
+from modern.publication.building import DIST, BuildError, newest_wheel, run, zipped
 
 NAME = "hull1620.pyz"
 _PACKAGES = ("lark", "mpmath")
 _LEFT_OUT = ("/tests/", "/__pyinstaller/", "__pycache__")
-EPOCH = (1980, 1, 1, 0, 0, 0)
 # Python compiles only this file before it checks the version, so every Python 3 must be able to read it.
 _MAIN = """import sys
 
@@ -32,13 +30,7 @@ if __name__ == "__main__":
 
 def pyz(wheel: Path) -> bytes:
     """Return the program as one executable archive.  The same wheel and packages always give the same bytes."""
-    files = {**files_of(wheel), "__main__.py": _MAIN.encode()}
-    buffer = BytesIO()
-    buffer.write(b"#!/usr/bin/env python3\n")
-    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
-        for name, data in sorted(files.items()):
-            archive.writestr(zipfile.ZipInfo(name, EPOCH), data, zipfile.ZIP_DEFLATED)
-    return buffer.getvalue()
+    return zipped({**files_of(wheel), "__main__.py": _MAIN.encode()}, prefix=b"#!/usr/bin/env python3\n")
 
 
 def files_of(wheel: Path) -> dict[str, bytes]:
@@ -60,10 +52,7 @@ def _installed(package: str) -> Iterator[tuple[str, bytes]]:
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Build the file in the named folder, by default ``dist``, from the newest wheel in ``dist``.
-
-    Return 0, or 2 after a message of one line.
-    """
+    """Build the file in the named folder, by default ``dist``. Return 0, or 2 after a message of one line."""
     out = Path(arguments[0]) if arguments else DIST
 
     def build() -> str:

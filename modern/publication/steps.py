@@ -56,10 +56,7 @@ class Pane:
 
 @dataclass(frozen=True, slots=True)
 class Plate:
-    """The picture of one step of a method.
-
-    ``points`` has pairs of a point and a truth value, which is True for a hidden point.
-    """
+    """The picture of one step of a method. ``points`` has pairs of a point and True if the point is hidden."""
 
     name: str
     strokes: tuple[Stroke, ...] = ()

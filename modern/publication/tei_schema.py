@@ -84,9 +84,7 @@ def _attribute_list(target: Element, entries: Element) -> None:
 
 
 def _values(attribute: Element, entry: Element) -> None:
-    """Write the permitted values of an attribute: a closed list or a datatype of XML Schema, and one or several of
-    them.
-    """
+    """Write the permitted values of an attribute: a closed list or a datatype, once or several times."""
     data = entry.find(f"{_TEI}datatype/{_TEI}dataRef")
     values = [item.get("ident", "") for item in entry.iterfind(f"{_TEI}valList/{_TEI}valItem")]
     if data is None:

@@ -17,6 +17,10 @@ from importlib.metadata import PackageNotFoundError, requires
 from io import BytesIO
 from pathlib import Path
 
+from packaging.requirements import Requirement  # packaging is a dependency of Sphinx
+from packaging.utils import canonicalize_name, parse_wheel_filename
+from packaging.version import Version
+
 from modern.publication.building import DIST, ROOT, BuildError, run
 
 WHEELS = DIST / "wheels"
@@ -51,12 +55,10 @@ def pins(lock: str) -> dict[str, str]:
 
 def _with_dependencies(roots: Sequence[str]) -> set[str]:
     """Return the names of the packages ``roots`` and of all packages that they need on this platform."""
-    from packaging.requirements import Requirement  # a dependency of Sphinx
-
     queue, visited = [Requirement(line) for line in roots], set[tuple[str, frozenset[str]]]()
     while queue:
         requirement = queue.pop()
-        name, extras = _normalized(requirement.name, "-"), frozenset(requirement.extras)
+        name, extras = canonicalize_name(requirement.name), frozenset(requirement.extras)
         if (name, extras) in visited:
             continue
         visited.add((name, extras))
@@ -73,16 +75,15 @@ def _with_dependencies(roots: Sequence[str]) -> set[str]:
 def download(folder: Path) -> str:
     """Download the missing wheels into a folder, remove wheels of other versions, and return a summary."""
     folder.mkdir(parents=True, exist_ok=True)
-    packages = collected()
-    stems = {_stem(pin) for pin in packages}
+    wanted = {_of_pin(pin): block for pin, block in collected().items()}
     for path in folder.glob("*.whl"):
-        if _wheel_stem(path.name) not in stems:
+        # The block of a wheel that is present need not be downloaded.
+        if wanted.pop(parse_wheel_filename(path.name)[:2], None) is None:
             path.unlink()
-    present = {_wheel_stem(path.name) for path in folder.glob("*.whl")}
-    if missing := [block for pin, block in packages.items() if _stem(pin) not in present]:
+    if wanted:
         with tempfile.TemporaryDirectory() as room:
             requirements = Path(room) / "run.txt"
-            requirements.write_text("\n".join(missing) + "\n", encoding="utf-8")
+            requirements.write_text("\n".join(wanted.values()) + "\n", encoding="utf-8")
             command = [sys.executable, "-m", "pip", "download", "--quiet", "--disable-pip-version-check", "--no-deps"]
             command += ["--require-hashes", "--only-binary", ":all:", "--dest", str(folder), "-r", str(requirements)]
             process = subprocess.run(command, capture_output=True, text=True, check=False)
@@ -92,18 +93,10 @@ def download(folder: Path) -> str:
     return f"{folder}: {len(sizes)} wheels, {sum(sizes) / 1e6:.1f} MB"
 
 
-def _normalized(name: str, separator: str) -> str:
-    return re.sub(r"[-_.]+", separator, name).lower()
-
-
-def _stem(pin: str) -> str:
-    """Return name and version of a pin ``NAME==VERSION`` in the form in which the file name of a wheel begins."""
+def _of_pin(pin: str) -> tuple[str, Version]:
+    """Return the normalised name and the version of a pin ``NAME==VERSION``."""
     name, _, version = pin.partition("==")
-    return f"{_normalized(name, '_')}-{version}"
-
-
-def _wheel_stem(file: str) -> str:
-    return _stem("==".join(file.split("-")[:2]))
+    return canonicalize_name(name), Version(version)
 
 
 def files(wheels: Path = WHEELS, pyodide: Path = PYODIDE) -> dict[str, bytes]:
@@ -132,8 +125,9 @@ def left_out(names: Mapping[str, bytes]) -> str:
 
     ``names`` has the paths of the files in the deposit as keys.
     """
-    present = {_wheel_stem(name.removeprefix("wheels/")) for name in names if re.fullmatch(r"wheels/[^/]+\.whl", name)}
-    packages = [pin for pin in collected() if _stem(pin) not in present]
+    wheels = [name.removeprefix("wheels/") for name in names if re.fullmatch(r"wheels/[^/]+\.whl", name)]
+    present = {parse_wheel_filename(name)[:2] for name in wheels}
+    packages = [pin for pin in collected() if _of_pin(pin) not in present]
     missing = [f"the wheels of {', '.join(packages)}"] if packages else []
     missing += [] if any(name.startswith("pyodide/") for name in names) else ["Pyodide"]
     reason = "the machine that packed it had neither a package registry nor a cache with them"

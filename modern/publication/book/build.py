@@ -165,10 +165,7 @@ def _numbered(file: str, title: str, name: str) -> str:
 
 
 def _picture(file: str, folder: Path) -> str:
-    """Copy an SVG file of the documents into the folder of the book, and return its name there.
-
-    Return an empty string for another file.
-    """
+    """Copy an SVG file into the folder of the book and return its name there, or "" for another file."""
     source = DOCS / file
     if source.suffix != ".svg" or not source.is_file():
         return ""

@@ -6,11 +6,11 @@ a meaning.  No character of a text can therefore be interpreted as markup (Typst
 
 import posixpath
 import re
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from markdown_it import MarkdownIt
-from markdown_it.token import Token
+from markdown_it.tree import SyntaxTreeNode
 
 # The directive of a part that the site generates from data, and the language of the code fence that replaces it.
 _MADE = re.compile(r"^:::\{made\} (.*)\n:::$", re.MULTILINE)
@@ -155,57 +155,42 @@ class Markdown:
         text = _MADE.sub(rf"~~~{_MADE_FENCE}\1\n~~~", _COMMENT.sub("", _HEAD.sub("", source)))
         # On paper an interval may stand below its estimate, but is not broken itself.
         text = _DIRECTIVE.sub("", text).replace("\N{NO-BREAK SPACE}(", " (")
-        tokens = MarkdownIt("commonmark").enable("table").parse(text)
-        return "".join(self._blocks(tokens))
+        return self._blocks(SyntaxTreeNode(MarkdownIt("commonmark").enable("table").parse(text)))
 
-    def _blocks(self, tokens: Sequence[Token]) -> Iterator[str]:
-        start = 0
-        while start < len(tokens):
-            end = _end(tokens, start)
-            yield self._block(tokens[start], tokens[start + 1 : end])
-            start = max(end, start) + 1
+    def _blocks(self, parent: SyntaxTreeNode) -> str:
+        return "".join(map(self._block, parent.children))
 
-    def _block(self, token: Token, inner: Sequence[Token]) -> str:
-        match token.type:
-            case "heading_open":
-                title = _plain(inner[0])
+    def _block(self, node: SyntaxTreeNode) -> str:
+        match node.type:
+            case "heading":
+                title = _plain(node)
                 first, place = not self._slugs, label(self.name, self._slug(title))
                 itself = f"#[] <{label(self.name)}>\n" if first else ""
                 if first and self.chapter.removeprefix("The ").lower() == title.lower():
                     return f"{itself}#[] <{place}>\n\n"
-                return itself + heading(title, 1 + int(token.tag[1]), place) + self._entry(place)
-            case "paragraph_open":
-                markup = self._inline(inner[0])
-                if _is_title(inner[0]):
+                return itself + heading(title, 1 + int(node.tag[1]), place) + self._entry(place)
+            case "paragraph":
+                markup = self._inline(node)
+                # A paragraph of bold text is the title of a table, which must stay on the table's page.
+                if [part.type for part in node.children[0].children if part.type != "text" or part.content] == [
+                    "strong"
+                ]:
                     return call("block", markup, sticky="true") + "\n\n"
-                return markup + ("\n" if token.hidden else "\n\n")
-            case "bullet_list_open":
-                return call("list", *self._items(inner)) + "\n\n"
-            case "ordered_list_open":
-                start = str(token.attrs.get("start", 1))
-                return call("enum", *self._items(inner), start=start) + "\n\n"
+                return markup + ("\n" if node.hidden else "\n\n")
+            case "bullet_list":
+                return call("list", *map(self._blocks, node.children)) + "\n\n"
+            case "ordered_list":
+                start = str(node.attrs.get("start", 1))
+                return call("enum", *map(self._blocks, node.children), start=start) + "\n\n"
             case "fence" | "code_block":
-                is_made = token.info.startswith(_MADE_FENCE)
-                return self.made(token.info.removeprefix(_MADE_FENCE)) if is_made else block(token.content)
-            case "table_open":
-                return self._table(inner)
-        raise ValueError(f"{self.name}: the book cannot print an element of the type {token.type}")
+                is_made = node.info.startswith(_MADE_FENCE)
+                return self.made(node.info.removeprefix(_MADE_FENCE)) if is_made else block(node.content)
+            case "table":
+                return self._table(node)
+        raise ValueError(f"{self.name}: the book cannot print an element of the type {node.type}")
 
-    def _items(self, tokens: Sequence[Token]) -> list[str]:
-        items, start = [], 0
-        while start < len(tokens):
-            end = _end(tokens, start)
-            items.append("".join(self._blocks(tokens[start + 1 : end])))
-            start = end + 1
-        return items
-
-    def _table(self, tokens: Sequence[Token]) -> str:
-        rows: list[list[Token]] = []
-        for token in tokens:
-            if token.type == "tr_open":
-                rows.append([])
-            elif token.type == "inline":
-                rows[-1].append(token)
+    def _table(self, node: SyntaxTreeNode) -> str:
+        rows = [row.children for part in node.children for row in part.children]
         columns = [[_plain(row[k]) for row in rows] for k in range(len(rows[0]))]
         longest = [max(len(word) for cell in column for word in re.split(r"[ \n]+", cell)) for column in columns]
         # A heading may be broken into lines; the width depends on the cells.
@@ -216,42 +201,40 @@ class Markdown:
         least = [max(word, min(width, _NAME)) for word, width in zip(longest, widths, strict=True)]
         return table(head, body, widths, least, right)
 
+    def _inline(self, parent: SyntaxTreeNode) -> str:
+        return "".join(self._span(node) for inline in parent.children for node in inline.children)
+
+    def _span(self, node: SyntaxTreeNode) -> str:
+        inner = "".join(map(self._span, node.children)) if node.type in ("em", "strong", "link") else ""
+        match node.type:
+            case "text":
+                entries = (self._entry(name.lower()) for name in dict.fromkeys(self.names.findall(node.content)))
+                return say(node.content) + "".join(entries)
+            case "softbreak":
+                return " "
+            case "hardbreak":
+                return "#linebreak()"
+            case "code_inline":
+                return code(node.content)
+            case "em":
+                return f"#emph[{inner}]"
+            case "strong":
+                return f"#strong[{inner}]"
+            case "link":
+                address = str(node.attrs["href"])
+                if place := self._target(address):
+                    return f"{self._entry(place)}#to(<{place}>)[{inner}]"
+                return f"#link({string(address)})[{inner}]" if re.match(r"https?:", address) else inner
+            case "image":
+                file = self.picture(posixpath.normpath(posixpath.join(self._folder, str(node.attrs["src"]))))
+                alt = string(node.content[:1].upper() + node.content[1:])
+                # Typst moves the picture to the top or the bottom of a page.
+                return f"#picture({string(file)}, {alt}, placement: auto)" if file else say(node.content)
+        return ""
+
     def _entry(self, subject: str) -> str:
         """Return an index entry for a label or a name, or an empty string if the index does not have it."""
         return f"#idx({string(self.subjects[subject])});" if subject in self.subjects else ""
-
-    def _inline(self, token: Token) -> str:
-        out: list[str] = []
-        ends: list[str] = []  # the end of each open link: empty if the link has no target in the book
-        for child in token.children or ():
-            match child.type:
-                case "text":
-                    out.append(say(child.content))
-                    out += [self._entry(name.lower()) for name in dict.fromkeys(self.names.findall(child.content))]
-                case "softbreak":
-                    out.append(" ")
-                case "hardbreak":
-                    out.append("#linebreak()")
-                case "code_inline":
-                    out.append(code(child.content))
-                case "em_open" | "strong_open":
-                    out.append("#emph[" if child.type == "em_open" else "#strong[")
-                case "em_close" | "strong_close":
-                    out.append("]")
-                case "link_open":
-                    place = self._target(str(child.attrs["href"]))
-                    opened = self._entry(place) if place else ""
-                    opened += f"#to(<{place}>)[" if place else self._outside(str(child.attrs["href"]))
-                    out.append(opened)
-                    ends.append("]" if opened else "")
-                case "link_close":
-                    out.append(ends.pop())
-                case "image":
-                    file = self.picture(posixpath.normpath(posixpath.join(self._folder, str(child.attrs["src"]))))
-                    alt = string(child.content[:1].upper() + child.content[1:])
-                    # Typst moves the picture to the top or the bottom of a page.
-                    out.append(f"#picture({string(file)}, {alt}, placement: auto)" if file else say(child.content))
-        return "".join(out)
 
     @property
     def _folder(self) -> str:
@@ -264,9 +247,6 @@ class Markdown:
         page = posixpath.normpath(posixpath.join(self._folder, file)) if file else self.name
         place = label(page, part) if part else label(page)
         return place if place in self.known else label(page) if label(page) in self.known else ""
-
-    def _outside(self, address: str) -> str:
-        return f"#link({string(address)})[" if re.match(r"https?:", address) else ""
 
     def _slug(self, title: str) -> str:
         """Return the anchor of a heading as MyST derives it; a repeated anchor gets a number."""
@@ -282,21 +262,5 @@ def places(name: str, source: str) -> tuple[str, ...]:
     return (label(name), *re.findall(r" <([\w.-]+)>(?=\n|\])", markup))
 
 
-def _is_title(paragraph: Token) -> bool:
-    """Return True if a paragraph consists of bold text: the title of a table, which must stay on the table's page."""
-    kinds = [child.type for child in paragraph.children or () if child.type != "text" or child.content]
-    return kinds[:1] == ["strong_open"] and kinds.index("strong_close") == len(kinds) - 1
-
-
-def _end(tokens: Sequence[Token], start: int) -> int:
-    """Return the index of the token that closes the element begun at ``start``, or ``start`` if it begins none."""
-    depth = 0
-    for index in range(start, len(tokens)):
-        depth += tokens[index].nesting
-        if depth == 0:
-            return index
-    return len(tokens) - 1
-
-
-def _plain(token: Token) -> str:
-    return "".join(child.content for child in token.children or () if child.type in ("text", "code_inline"))
+def _plain(node: SyntaxTreeNode) -> str:
+    return "".join(part.content for part in node.walk() if part.type in ("text", "code_inline"))

@@ -4,13 +4,12 @@ The site contains all of them, so it works without a network.  The wheel, the on
 if they have been built.
 """
 
-import zipfile
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from modern.edition import programs
-from modern.publication.building import DIST, ROOT, citation, newest_wheel
+from modern.publication.building import DIST, ROOT, citation, newest_wheel, zipped
 from modern.publication.deposit import source_files
 from modern.publication.tei import archive
 
@@ -72,9 +71,5 @@ def write(folder: Path) -> None:
     """Write all downloads into a new folder; the same files always give the same bytes."""
     folder.mkdir()
     for item in downloads():
-        if not item.packed:
-            (folder / item.name).write_bytes(next(iter(item.files.values())))
-            continue
-        with zipfile.ZipFile(folder / item.name, "w", zipfile.ZIP_DEFLATED) as archive:
-            for name, data in sorted(item.files.items()):
-                archive.writestr(zipfile.ZipInfo(name), data, zipfile.ZIP_DEFLATED)
+        data = zipped(item.files) if item.packed else next(iter(item.files.values()))
+        (folder / item.name).write_bytes(data)

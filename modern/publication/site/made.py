@@ -35,9 +35,7 @@ def names() -> tuple[str, ...]:
 
 
 def make(name: str, argument: str) -> list[Part]:
-    """Return the content that the module ``name`` of ``pages`` generates for an argument. Raise ValueError if either is
-    unknown.
-    """
+    """Return the parts that a module of ``pages`` makes. Raise ValueError for an unknown name or argument."""
     if name not in names():
         raise ValueError(f"unknown page {name!r}; expected one of {', '.join(names())}")
     content: list[Part] = import_module(f"{pages.__name__}.{name.replace('-', '_')}").make(argument)

@@ -205,10 +205,7 @@ def inline(svg: str, key: str, cls: str = "drawing", percent: int = 100) -> str:
 
 
 def figure(svg: str, key: str, caption: str, cls: str = "drawing", description: str = "") -> str:
-    """Return a picture with a caption in HTML.
-
-    ``description`` is a text for screen readers; a picture that already has a description keeps it.
-    """
+    """Return a picture with a caption in HTML and, unless it has one, a description for screen readers."""
     if description and "<desc" not in svg:
         svg = svg.replace("<title>", '<title id="title">', 1)
         svg = svg.replace("</title>", f'</title>\n<desc id="desc">{escape(description)}</desc>', 1)

@@ -53,10 +53,7 @@ def make(argument: str) -> list[Part]:
 
 
 def places() -> Iterator[Place]:
-    """Yield all entries of the Index, and the statements of the documents.
-
-    If several entries have the same name, the first one is the best match.
-    """
+    """Yield all entries of the Index, then the statements. Of several entries with one name, the first is the best."""
     for entries in (_subjects(), _errors(), _rows(), _names(), *map(_cards, _ORDER)):
         yield from entries
     for document in DOCUMENTS:

@@ -125,9 +125,7 @@ def map_svg(storage: CoreMap) -> str:
 
 
 def _labelled_addresses(storage: CoreMap) -> Iterator[int]:
-    """Yield the addresses that label the map: the starts of the regions below the data, of the data, and the end of
-    core.
-    """
+    """Yield the addresses that label the map: the start of each region up to the data, and the end of core."""
     previous = ""
     for region in storage.regions:
         if region.kind in (core.SYSTEM, core.PROGRAM, core.FREE) or previous == core.FREE:
@@ -163,9 +161,7 @@ def _addresses(storage: CoreMap) -> str:
 
 
 def example_runs() -> list[Run]:
-    """Return the runs of the printed examples, sorted by example and program. Program 1 is in the state of the
-    examples.
-    """
+    """Return the runs by example and program. Program 1 is in the state of the printed examples."""
     names = [name for name in PROGRAMS if name != "program1"]
     return sorted((run for name in names for run in runs(name)), key=lambda run: (run.example, run.program))
 
