@@ -126,7 +126,7 @@ class ExactNumbers(Numbers):
 
     def power(self, base: Exact, exponent: Exact) -> tuple[Exact, str]:
         if isinstance(exponent, RootSum) or exponent.denominator != 1:
-            raise Undecided(f"exact arithmetic cannot hold a power of exponent {self.text(exponent)}")
+            raise Undecided(f"exact arithmetic cannot hold a power with the exponent {self.text(exponent)}")
         result, _ = self.integer_power(self._size(base), exponent.numerator)
         return result, "F6" if self.sign(base) < 0 else ""
 

@@ -173,7 +173,7 @@ def read_as_1962(field: Field, text: str, rules: Rules) -> FieldNumber:
     codes = text.encode("ascii", "replace")
     mantissa, exponent, status = columns1962.read_number(bytearray(codes), len(codes), field.decimals, kind, rules)
     if status == columns1962.REJECTED:
-        raise FieldError(f"{text.strip()!r} is not a number of {field}")
+        raise FieldError(f"{text.strip()!r} is not a number for the field {field}")
     if field.kind == "I" and exponent:
         return FieldNumber(FIXED_MINUS_ZERO, 0)
     return FieldNumber(mantissa, exponent)
