@@ -6,14 +6,12 @@ The templates (``docs/_templates``) make the frame of a page accessible. The wri
 import json
 import posixpath
 import re
-from functools import cache
 from pathlib import Path
 from typing import Any
 
 from docutils import nodes
 from sphinx import addnodes
 from sphinx.application import Sphinx
-from sphinx.environment import BuildEnvironment
 from sphinx.util.docutils import SphinxDirective
 from sphinx.writers.html5 import HTML5Translator
 
@@ -136,35 +134,6 @@ def _stack_tables(app: Sphinx, name: str, template: str, context: dict[str, Any]
         context["body"] = stacked(context["body"])
 
 
-def _speed_up_navigation(app: Sphinx, name: str, template: str, context: dict[str, Any], tree: object) -> None:
-    """Make the navigation from the titles of pages; Sphinx would copy all sections of all pages for every page."""
-    env, toctree = app.env, context.get("toctree")
-    titles = _titles(env)
-
-    def navigation(**options: Any) -> str:
-        sections, env.tocs = env.tocs, titles
-        try:
-            return str(toctree(**options))  # type: ignore[misc]
-        finally:
-            env.tocs = sections
-
-    if toctree is not None:
-        context["toctree"] = navigation
-
-
-@cache
-def _titles(env: BuildEnvironment) -> dict[str, nodes.bullet_list]:
-    """Return the table of contents of each page without sections, as Sphinx makes it for ``titles_only``."""
-    tocs = {name: toc.deepcopy() for name, toc in env.tocs.items()}
-    for entry in (entry for toc in tocs.values() for entry in toc.children):
-        if isinstance(entry, nodes.Element) and len(entry) > 1:
-            assert isinstance(entry[1], nodes.Element)
-            entry[1][:] = [*entry.findall(addnodes.toctree)]
-            if not entry[1].children:
-                entry.pop(1)
-    return tocs
-
-
 def _write_places(app: Sphinx, exception: Exception | None) -> None:
     """Write the entries of the Index as a script, because a site that is opened as files cannot fetch data."""
     if exception is not None:
@@ -179,7 +148,6 @@ def setup(app: Sphinx) -> dict[str, Any]:
     app.add_directive("made", MadeDirective)
     app.connect("source-read", _project_files)
     app.connect("html-page-context", _stack_tables)
-    app.connect("html-page-context", _speed_up_navigation, priority=400)  # before the theme makes the navigation
     app.connect("build-finished", _write_places)
     app.set_translator("html", AccessibleTranslator)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}
