@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from emulator.jit.functions import NotInstalled
-from modern.digital.intervals import Grid, Truth, below_edges, below_faces, column_ends, fill, reduced
+from modern.digital.intervals import Truth, below_faces, column_ends, fill, vertex_candidates
 from modern.digital.solids import NoVoxels, Volume, VolumeError
 from modern.digital.world import World, voxel_volume, world_of
 from modern.exact_hull import exact_hull
@@ -178,50 +178,27 @@ def _truth(array: NDArray[Any]) -> Truth:
 
 def _hull(solid: Truth, fast: bool | None) -> tuple[int, Truth]:
     """Return the dimension of the hull, and the volume of the voxels in it."""
-    # Candidates for vertices: the lower and the upper ends of the columns, reduced separately.
-    x, y, low, high = column_ends(solid)
-    lower = np.stack(reduced(x, y, low), axis=1)
-    upper = np.stack(reduced(x, y, -high), axis=1) * (1, 1, -1)
-    points = np.unique(np.concatenate((lower, upper)), axis=0)
+    points = vertex_candidates(*column_ends(solid))
     try:
         hull = exact_hull(points, fast)
     except NotInstalled as error:
         raise VolumeError(str(error)) from None
-    if hull.dimension == 3:
-        faces = ((points[list(facet.polygon)], facet.plane) for facet in hull.facets)
-        return 3, fill(*below_faces(faces, (solid.shape[0], solid.shape[1])), solid.shape[2])
-    filled = np.zeros(solid.shape, dtype=np.bool_)
-    if hull.plane is not None:
-        _fill_polygon(filled, points, np.array(hull.plane[:3]))
+    if hull.dimension < 2:
+        filled = np.zeros(solid.shape, dtype=np.bool_)
+        first, last = points[hull.vertices[0]], points[hull.vertices[-1]]
+        steps = max(1, int(np.gcd.reduce(last - first)))
+        filled[tuple((first + np.arange(steps + 1)[:, None] * ((last - first) // steps)).T)] = True
+        return hull.dimension, filled
+    axes = [0, 1, 2]
+    if hull.plane is None:
+        faces = [(points[list(facet.polygon)], facet.plane) for facet in hull.facets]
     else:
-        _fill_segment(filled, points[hull.vertices[0]], points[hull.vertices[-1]])
-    return hull.dimension, filled
-
-
-def _fill_segment(filled: Truth, first: Grid, last: Grid) -> None:
-    steps = max(1, int(np.gcd.reduce(last - first)))
-    filled[tuple((first + np.arange(steps + 1)[:, None] * ((last - first) // steps)).T)] = True
-
-
-def _fill_polygon(filled: Truth, points: Grid, normal: Grid) -> None:
-    """Fill the convex hull of coplanar points, given as the indices of voxels.
-
-    The points are projected along the axis of the largest component of their plane's normal, and the projection is
-    filled as a polygon. A position in this polygon is lifted back to the plane, and its voxel is filled if the lifted
-    coordinate is an integer.
-    """
-    origin = points[0]
-    axis = int(np.abs(normal).argmax())
-    first, second = (k for k in range(3) if k != axis)
-    low, high = below_edges(points[:, first], points[:, second], filled.shape[first])
-    v = np.arange(filled.shape[second])
-    inside = (low[:, None] <= v) & (v <= high[:, None])
-    if abs(normal[axis]) == np.abs(normal).sum():
-        np.moveaxis(filled, axis, 0)[origin[axis]] = inside
-        return
-    u, v = np.nonzero(inside)
-    over = -(normal[first] * (u - origin[first]) + normal[second] * (v - origin[second]))
-    # A position has a grid point of the hull only if the plane passes through a grid point there.
-    exact = over % normal[axis] == 0
-    indices = {axis: origin[axis] + over[exact] // normal[axis], first: u[exact], second: v[exact]}
-    filled[indices[0], indices[1], indices[2]] = True
+        # A polygon is filled as a polyhedron with two opposite faces, along the axis nearest to its normal.
+        axes.append(axes.pop(int(np.abs(hull.plane[:3]).argmax())))
+        a, b, c, d = (hull.plane[k] for k in (*axes, 3))
+        # If the second axis is now the last, the orientation is reversed.
+        corners = points[list(hull.polygon)][:: -1 if axes[2] == 1 else 1, axes]
+        faces = [(corners, (a, b, c, d)), (corners[::-1], (-a, -b, -c, -d))]
+    nx, ny, nz = (solid.shape[k] for k in axes)
+    filled = fill(*below_faces(faces, (nx, ny)), nz).transpose(np.argsort(axes))
+    return hull.dimension, np.ascontiguousarray(filled)

@@ -43,6 +43,16 @@ def column_ends(volume: Truth) -> tuple[Grid, Grid, Grid, Grid]:
     return x, y, low, high
 
 
+def vertex_candidates(x: Grid, y: Grid, low: Grid, high: Grid) -> Grid:
+    """Return the ends of columns that can be vertices of the hull, shape (n, 3), sorted by x, y and z.
+
+    The columns are given in raster order, as by ``column_ends``.
+    """
+    lower = np.stack(reduced(x, y, low), axis=1)
+    upper = np.stack(reduced(x, y, -high), axis=1) * (1, 1, -1)
+    return np.unique(np.concatenate((lower, upper)), axis=0)
+
+
 def reduced(x: Grid, y: Grid, z: Grid) -> tuple[Grid, Grid, Grid]:
     """Remove points that cannot be lower vertices of the hull: points on or above a chord of their row or column.
 
@@ -164,31 +174,3 @@ def _count_up(counts: Grid) -> Grid:
     """Return one array that has the numbers 0, 1, ..., count - 1 for each of the counts in turn."""
     ends = np.cumsum(counts)
     return np.arange(int(ends[-1]) if len(ends) else 0) - np.repeat(ends - counts, counts)
-
-
-def below_edges(u: Grid, v: Grid, width: int) -> tuple[Grid, Grid]:
-    """Return the least and greatest integer v in a polygon for each integer u from 0 to ``width`` - 1.
-
-    The arrays ``u`` and ``v`` hold the corners. For a value u without a grid point in the polygon, the least v is above
-    the greatest.
-    """
-    low, high = np.ones(width, dtype=np.int64), np.zeros(width, dtype=np.int64)
-    places = np.arange(u.min(), u.max() + 1)
-    low[places] = _chain(u, v, places)
-    high[places] = -_chain(u, -v, places)
-    return low, high
-
-
-def _chain(u: Grid, v: Grid, places: Grid) -> Grid:
-    """Return the height v of the lower side of the points' hull at each of the positions u, rounded up."""
-    order = np.lexsort((v, u))
-    u, v = u[order], v[order]
-    lowest = np.concatenate(([True], u[1:] != u[:-1]))
-    chain = lower_chain(zip(u[lowest].tolist(), v[lowest].tolist(), strict=True))
-    t, z = np.array(chain, dtype=np.int64).T
-    if len(chain) == 1:
-        return np.broadcast_to(z, places.shape)
-    k = np.minimum(np.searchsorted(t, places, side="right") - 1, len(t) - 2)
-    run, rise = t[k + 1] - t[k], z[k + 1] - z[k]
-    height: Grid = z[k] - (-(rise * (places - t[k])) // run)
-    return height

@@ -11,7 +11,7 @@ from typing import Final, Literal
 import numpy as np
 
 from emulator.errors import quoted
-from modern.digital.intervals import reduced
+from modern.digital.intervals import vertex_candidates
 from modern.digital.measures import Measures, measures
 from modern.digital.solids import NoVoxels, Volume, VolumeError, Voxels, as_volume
 from modern.digital.world import World, decimal_or_fraction
@@ -75,9 +75,7 @@ def hull_cells(points: Points) -> CellList | Flat:
     x, y, z = points[np.lexsort(points.T[::-1])].T
     first = np.concatenate(([True], (x[1:] != x[:-1]) | (y[1:] != y[:-1])))
     last = np.concatenate((first[1:], [True]))
-    lower = np.stack(reduced(x[first], y[first], z[first]), axis=1)
-    upper = np.stack(reduced(x[last], y[last], -z[last]), axis=1) * (1, 1, -1)
-    candidates = np.unique(np.concatenate((lower, upper)), axis=0)
+    candidates = vertex_candidates(x[first], y[first], z[first], z[last])
     hull = exact_hull(candidates[np.lexsort(candidates.T)])
     if hull.dimension < 3:
         return flat_hull(hull)
