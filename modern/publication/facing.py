@@ -121,7 +121,7 @@ def facing(name: str) -> Facing:
     text = programs.text(entry.text)
     lines = build(text, entry.layers)
     everywhere = _everywhere(lines)
-    places = tuple(_places(lines))
+    places = _places(lines)
     pieces, dropped = _pieces(text, lines, entry.layers, everywhere)
     variants = _variants(text, lines, entry.layers)
     further_places = _further_places(places)
@@ -150,7 +150,7 @@ def _everywhere(lines: Sequence[Line]) -> frozenset[str]:
     return frozenset(row for row, count in counts.items() if 2 * count > len(lines))
 
 
-def _places(lines: Iterable[Line]) -> Iterator[tuple[str, Kind, int]]:
+def _places(lines: Iterable[Line]) -> list[tuple[str, Kind, int]]:
     comments: list[int] = []  # indices of comments whose following statement has not come yet
     places: list[tuple[str, Kind, int]] = []
     number, steps = 0, 0  # the last statement number, and the statements since then
@@ -171,7 +171,7 @@ def _places(lines: Iterable[Line]) -> Iterator[tuple[str, Kind, int]]:
                 places[comment] = (f"before-{place}{'' if k == 0 else chr(ord('a') + k)}", "comment", 0)
         comments = []
         places.append((place, "format" if match and match[2] else "statement", label))
-    yield from places
+    return places
 
 
 def _further_places(places: Sequence[tuple[str, Kind, int]]) -> Mapping[str, tuple[str, ...]]:

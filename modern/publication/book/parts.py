@@ -159,19 +159,15 @@ def _ground(row: Row) -> str:
 
 def charts(save: SavePicture) -> Iterator[str]:
     """Yield the flow charts of the listings. Each sheet has a page of its own and almost its natural size."""
-    variants = [name for name in programs.NAMES if programs.built_in(name).text != name]
+    variants = [name for name in programs.NAMES if name not in programs.TEXTS]
     yield say(f"The site also shows the flow chart of {', '.join(variants)}.") + "\n\n"
-    for name in programs.NAMES:
-        if name in variants:
-            continue
+    for name in programs.TEXTS:
         drawn = chart(flow(programs.program(name)))
-        yield "#pagebreak(weak: true)\n\n"
-        for number in range(1, len(drawn.pages) + 1):
+        yield "#pagebreak(weak: true)\n\n" + heading(f"Flow chart of {name}", 2, label("chart", name))
+        for number, page in enumerate(drawn.pages, 1):
             title = f"Flow chart of {name}, sheet {number} of {len(drawn.pages)}"
-            if number == 1:
-                yield heading(f"Flow chart of {name}", 2, label("chart", name))
             file = save(f"chart-{name}-{number}", chart_svg(drawn, number))
-            height = min(_SHEET, drawn.pages[number - 1].height * _MILLIMETRES)
+            height = min(_SHEET, page.height * _MILLIMETRES)
             picture = f"#picture({string(file)}, {string(title)}, height: {height:.0f}mm)"
             yield f"#[{picture}] <{label('chart', name, str(number))}>\n#pagebreak(weak: true)\n\n"
 
