@@ -46,7 +46,7 @@ def data_sets(cards: Sequence[str]) -> list[list[str]]:
 def compare(emulated: Sequence[Sequence[str]], native: Sequence[Sequence[str]]) -> Agreement:
     """Compare the emulator's cards with those of the native program, deck by deck.
 
-    A deck for which one of them punched nothing counts as another hull.
+    A deck for which the emulator or the native program punched nothing counts as another hull.
     """
     same = digits = different = 0
     first = ""

@@ -26,7 +26,7 @@ def _points(*names: str) -> tuple[str, ...]:
 
 
 def _of_points(function: Callable[..., Number]) -> Callable[..., Number]:
-    """Return a function of numbers that passes each three numbers as a point to a function of points."""
+    """Turn a function of points into a function of numbers, in which each three numbers are a point's coordinates."""
     return lambda *numbers: function(*(numbers[k : k + 3] for k in range(0, len(numbers), 3)))
 
 

@@ -64,7 +64,7 @@ def command(*arguments: str) -> Callable[[], object]:
 
 
 class Measured(float):
-    """The seconds of a run, returned by a function that measures itself because it runs another program."""
+    """A number of seconds, returned by a function that measures its own run because it starts another program."""
 
 
 def _seconds(work: Callable[[], object], clock: Clock = time.perf_counter) -> float:
@@ -75,15 +75,16 @@ def _seconds(work: Callable[[], object], clock: Clock = time.perf_counter) -> fl
 
 @dataclass(frozen=True, slots=True)
 class Curve:
-    """Measured seconds by size of the problem, for one method."""
+    """The measured times of one method, as pairs of the size of the problem and the seconds."""
 
     name: str
     points: Sequence[tuple[int, float]]
 
     def slope(self, least: int = 0) -> float | None:
-        """Return the exponent of the power of the size with which the seconds grow, or None for fewer than two points.
+        """Return the slope of the curve on logarithmic axes, for sizes of at least ``least``, by least squares.
 
-        The exponent is fitted by least squares to the points whose size is at least ``least``.
+        The slope is the exponent of the power of the size with which the seconds grow.  Return None for fewer than two
+        points.
         """
         logs = [(math.log(count), math.log(seconds)) for count, seconds in self.points if count >= least]
         if len(logs) < 2:

@@ -114,7 +114,10 @@ def names(card: str) -> frozenset[str]:
 
 @lru_cache(1 << 18)
 def form(card: str) -> str:
-    """Return a statement without its number, with each name replaced by the order of its first occurrence."""
+    """Return a statement without its number, with its names numbered in the order of their first occurrence.
+
+    ``X(K)=Y(K)`` becomes ``<0>(<1>)=<2>(<1>)``.
+    """
     order: dict[str, str] = {}
     text = re.sub(r"^\d+", "", solid(card))
     return _NAME.sub(lambda m: order.setdefault(m[0], f"<{len(order)}>"), text)

@@ -57,7 +57,7 @@ class Theorem:
     """A worked example.
 
     ``extremes`` names the points that the thesis calls lx, sx, ly, sy, lz and sz, which have the largest or smallest x,
-    y or z.  ``outside_plane`` names the points that do not lie on the plane according to the text.  ``signs`` holds
+    y or z.  ``outside_plane`` names the points that, according to the text, do not lie on the plane.  ``signs`` holds
     triples (number of a plane, name of a point, sign): the sign that the plane's equation has at the point according to
     the text.  ``lost`` maps the name of each point whose coordinates the OCR lost to the reason why the text does not
     determine them.

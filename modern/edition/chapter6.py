@@ -108,7 +108,10 @@ class Layout:
 
 
 def load_layout(folder: Traversable) -> Layout:
-    """Read ``layout.toml`` of a transcript folder.  Raises LayoutError for an unknown card, role, device or layer."""
+    """Return the layout in ``layout.toml`` of a folder.
+
+    Raise LayoutError for an unknown card, role, device or layer.
+    """
     data = tomllib.loads(folder.joinpath("layout.toml").read_text(encoding="utf-8"))
     shapes: dict[str, CardShape] = {}
     for raw in data["card"]:

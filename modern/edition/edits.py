@@ -47,7 +47,7 @@ def word_edits(old: str, new: str) -> Iterator[Edit]:
 
 
 def _word_edits(old: str, new: str) -> Iterator[tuple[Edit, tuple[range, Sequence[str]]]]:
-    """Yield each edit with the indices of the words that it removes and the words that it inserts."""
+    """Yield each edit with the indices of the words that it removes, and with the words that it inserts."""
     before, after = ([*re.finditer(r"\S+", text)] for text in (old, new))
     matcher = SequenceMatcher(None, [word[0] for word in before], [word[0] for word in after], autojunk=False)
     for kind, a, b, c, d in matcher.get_opcodes():

@@ -51,7 +51,7 @@ LIMIT_FACTOR = 4
 
 @dataclass(frozen=True, slots=True)
 class Proof:
-    """The result of a check: its subject (a row or deck), whether the check holds, and a message."""
+    """The result of a check: its subject, such as the id of a row, True if the check holds, and a message."""
 
     subject: str
     holds: bool
@@ -141,7 +141,8 @@ def check_row(row: Row) -> Proof:
         row_steps = steps(row) or ()
         for step in row_steps if len(row_steps) > 1 else ():
             if not test(row, step)[0]:
-                return Proof(row.id, False, f"{kind}: {step.pair.lemma!r} for {step.pair.witness!r} is not needed")
+                pair = step.pair
+                return Proof(row.id, False, f"{kind}: the change of {pair.witness!r} to {pair.lemma!r} is not needed")
     return Proof(row.id, holds, f"{kind}: {message}")
 
 
@@ -172,7 +173,7 @@ def _without(row: Row, step: Step | None) -> Deck:
 
 
 def _compiled(row: Row, step: Step | None) -> tuple[Program | None, str]:
-    """Return the program without a row or a step of it, or None and the first error."""
+    """Return the program without a row or without one step of it.  If it does not compile, return the first error."""
     try:
         return compile_deck(_without(row, step)), ""
     except CompileError as error:

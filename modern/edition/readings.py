@@ -74,7 +74,7 @@ class Step:
 
 @cache
 def table() -> tuple[Pair, ...]:
-    """Return the pairs of the table of confusables, longest first."""
+    """Return the pairs of the table of confusables, those with most characters first."""
     text = files("fortran_src").joinpath("apparatus", "confusables.toml").read_text(encoding="utf-8")
     pairs = [Pair(p["witness"], p["lemma"], p["class"], p.get("known", "")) for p in tomllib.loads(text)["pair"]]
     return tuple(sorted(pairs, key=lambda pair: (-len(pair.witness) - len(pair.lemma), pair.witness, pair.lemma)))
@@ -153,7 +153,7 @@ def _better(
 
 
 def without_step(row: Row, step: Step) -> Row:
-    """Return a row that leaves the characters of the witness at one of its steps."""
+    """Return the row with one of its steps undone: its lemma has the characters of the witness at this place."""
     change = row.changes[step.change]
     lemma = _blanked(change.lemma, step.to, len(step.pair.lemma), step.pair.witness)
     changes = tuple(replace(c, lemma=lemma) if n == step.change else c for n, c in enumerate(row.changes))
@@ -161,7 +161,7 @@ def without_step(row: Row, step: Step) -> Row:
 
 
 def _blanked(text: str, at: int, length: int, instead: str) -> str:
-    """Replace ``length`` characters of a text by blanks, from the ``at``-th character that is not blank."""
+    """Replace ``length`` nonblank characters of a text by ``instead``, beginning with the nonblank character ``at``."""
     positions = [n for n, char in enumerate(text) if not char.isspace()]
     first = positions[at] if at < len(positions) else len(text)
     last = positions[at + length - 1] + 1 if length else first

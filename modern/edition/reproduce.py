@@ -39,7 +39,9 @@ _NUMBER = re.compile(r"[+-]?\.\d+E[+-]\d\d|(?<![A-Z0-9.])\d+")
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """A verdict on the output of one device, with the numbers of printed numbers, words, nonblank and blank cards.
+    """A verdict on the output of one device.
+
+    ``numbers``, ``words``, ``cards`` and ``blank`` count the printed numbers, words, cards with text and blank cards.
 
     ``differences`` has a triple for each card that differs: its number, the printed and the produced card.  A missing
     card is an empty string.  If the verdict is that the output is exact in another order, ``same`` has the number of
@@ -79,7 +81,7 @@ class Report:
 
     @property
     def stated(self) -> bool:
-        """True for typewriter lines, which chapter 5 states and chapter 6 does not print."""
+        """True for typed lines, which chapter 5 describes and chapter 6 does not print."""
         return self.device == "typewriter"
 
 

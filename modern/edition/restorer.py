@@ -221,9 +221,7 @@ def _is_statement(program: _Program, n: int) -> bool:
 
 
 def _unlike_siblings(program: _Program, forms: Counter[str]) -> None:
-    """Emend a card if one of its names occurs nowhere else, or if another reading has similar cards and the present
-    reading has none.
-    """
+    """Emend a card if one of its names occurs nowhere else, or if only another reading of the card has siblings."""
     uses = Counter(name for card in program.cards for name in names(card))
     for n, card in enumerate(program.cards):
         if "FORMAT" in card or not _is_statement(program, n):

@@ -21,8 +21,8 @@ from modern.edition.readings import solid
 class Place:
     """A piece of a line with two readings: ``old`` before the row is applied, ``new`` after it.
 
-    ``moved`` is 0, or the number of a displaced piece within its row.  The place that the piece leaves and the place
-    that it enters have the same number.
+    ``moved`` is 0, or counts the words that a row moves together.  The place that the words leave and the place that
+    they enter have the same number.
     """
 
     row: Row
@@ -56,7 +56,7 @@ def reading(pieces: Iterable[Piece], layers: Collection[str]) -> str:
 
 
 def segments(text: Text) -> tuple[Segments, ...]:
-    """Return every line of a text divided into pieces, of which those that are emended are places."""
+    """Return every line of a text divided into pieces.  The emended pieces are places."""
     segmented = _SegmentedText(text)
     for layer in text.layers:
         for row in text.rows:

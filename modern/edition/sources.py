@@ -59,7 +59,10 @@ class Stretch:
 
 @dataclass(frozen=True, slots=True)
 class Excerpt:
-    """An excerpt that is the witness of a text: the id of the text, file, document, hash, and the copied lines."""
+    """An excerpt of a document, which is the witness of a text.
+
+    ``text`` is the id of the text, ``document`` that of the document, and ``stretches`` has the copied lines.
+    """
 
     text: str
     file: str

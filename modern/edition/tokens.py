@@ -26,7 +26,10 @@ _TOKEN = re.compile(r"SENSESWITCH|[A-Z][A-Z0-9]*|\d+|\*\*|.", re.DOTALL)
 
 @dataclass(frozen=True, slots=True)
 class Rival:
-    """Another text for the tokens ``first`` to ``last`` of a card; ``origin`` is ``silent`` or the id of a row."""
+    """Another text for the tokens ``first`` to ``last`` of a card.
+
+    ``origin`` is the id of the row that replaces this text, or ``silent`` for an alteration that no check detects.
+    """
 
     first: int
     last: int
@@ -36,9 +39,10 @@ class Rival:
 
 @cache
 def spans(card: int) -> tuple[tuple[int, int], ...]:
-    """Return the first and the last character (exclusive) of each token of a card, whose text has no blanks.
+    """Return the index of the first character of each token of a card, and the index after its last character.
 
-    ``card`` is the index of the card in the edition (:func:`modern.edition.transcription.edition_cards`).
+    The indices refer to the text of the card without blanks.  ``card`` is the index of the card in the edition
+    (:func:`modern.edition.transcription.edition_cards`).
     """
     entry = edition_cards()[card]
     if entry.text.startswith("C") and not entry.label:
@@ -136,7 +140,7 @@ def row_rivals(row: Row) -> Iterator[tuple[int, Rival]]:
 
 
 def _rival(n: int, reading: str, origin: str) -> Rival:
-    """Return another reading of a whole card as a rival of the tokens that differ."""
+    """Return the rival that turns card ``n`` into ``reading``: the tokens that differ, with their other text."""
     text, tokens = edition_cards()[n].solid, spans(n)
     head = common_prefix(text, reading)
     tail = min(common_prefix(text[::-1], reading[::-1]), len(text) - head, len(reading) - head)

@@ -231,7 +231,10 @@ def _forms() -> Counter[str]:
 
 
 def _form(text: str) -> str:
-    """Return a statement with each name or number replaced by the order of its first occurrence: ``<0>(<1>)=<2>``."""
+    """Return a statement with its names and numbers numbered in the order of their first occurrence.
+
+    ``X(K)=Y(K)`` becomes ``<0>(<1>)=<2>(<1>)``.
+    """
     order: dict[str, str] = {}
     return re.sub(r"[A-Z][A-Z0-9]*|\d+", lambda m: order.setdefault(m[0], f"<{len(order)}>"), text)
 
@@ -239,7 +242,7 @@ def _form(text: str) -> str:
 def alike(text: str) -> int:
     """Return the number of other cards of the three listings that have the same form as a statement.
 
-    Two statements have the same form if exchanging names and numbers makes them equal.
+    Statements have the same form if they differ only in their names and numbers, and repeat these at the same places.
     """
     return max(_forms()[_form(text)] - 1, 0)
 

@@ -45,7 +45,7 @@ def verdicts(examples: Sequence[int] = EXAMPLES) -> Iterator[CardVerdict]:
 
 
 def _judged(example: int, printed: Print, cards: Sequence[str]) -> Iterator[CardVerdict]:
-    """Yield the verdict on each card that was printed or punched."""
+    """Yield the verdict on each printed card, and on each punched card after the last printed card."""
     for number in range(1, max(len(printed.lines), len(cards)) + 1):
         pair = [lines[number - 1].rstrip() if number <= len(lines) else None for lines in (printed.lines, cards)]
         yield CardVerdict(example, printed.program, number, SAME if pair[0] == pair[1] else DIFFERENT)

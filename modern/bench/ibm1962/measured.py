@@ -42,7 +42,7 @@ class Measured:
 
 
 def measure(cases: Sequence[tuple[Statement, tuple[str, ...]]], deck: Sequence[str]) -> list[Measured]:
-    """Execute statements with the library in ``deck``, and record the results.
+    """Execute statements with the library in ``deck``, and return them with the results.
 
     Raise the errors of ``simulator.run_jobs``.
     """

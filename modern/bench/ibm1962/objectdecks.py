@@ -59,7 +59,7 @@ class Comparison:
     error: str = ""
 
     def differences(self) -> Iterator[tuple[str, str]]:
-        """Yield each card or line of the library that differs from that of the emulator, and the emulator's."""
+        """Yield pairs of cards or lines that differ: that of the library, then that of the emulator."""
         for library, emulator in zip(self.library, self.emulator, strict=True):
             length = max(len(library), len(emulator))
             padded = [(*side, *[""] * (length - len(side))) for side in (library, emulator)]
@@ -87,7 +87,10 @@ def _complete(program: Program, cards: Sequence[str], core: int = 20_000) -> lis
 def execute(
     program: Program, cards: Sequence[str], keys: Sequence[str] = (), starts: Sequence[Collection[int]] = ()
 ) -> Run:
-    """Run the object deck of a program on IBM's library with data cards. Raise Failed, Unavailable or EmulatorError."""
+    """Run the object deck of a program on IBM's library, with data cards, typed lines and switches at each START.
+
+    Raise Failed, Unavailable or EmulatorError.
+    """
     deck = _complete(program, library(), CORE)
     return run(deck, core=CORE, cards=cards, keys=keys, starts=starts, seconds=SECONDS)
 

@@ -55,7 +55,10 @@ def figures() -> Iterator[Figure]:
 
 
 def growth() -> list[Curve]:
-    """Measure the median seconds for growing numbers of cuboids, as one curve for each arrangement, and n log n."""
+    """Measure the median seconds for growing numbers of cuboids, as one curve for each arrangement.
+
+    The last curve is n log n, for comparison.
+    """
     curves = [
         Curve(name, [(count, timed("", partial(drawn, arrangement(count))).median) for count in COUNTS])
         for name, arrangement in (("in a grid of three dimensions", block), ("on a floor, few overlap", field))

@@ -34,7 +34,7 @@ WITH_FACES = "port, fast, with its faces as text"
 
 
 def ball(count: int, seed: int = 1) -> Any:
-    """Return points uniform in the unit ball, shape (count, 3), float64."""
+    """Return points that are uniformly distributed in the unit ball, as an array of shape (count, 3), float64."""
     source = np.random.default_rng(seed)
     directions = source.normal(size=(count, 3))
     directions /= np.linalg.norm(directions, axis=1)[:, None]
@@ -42,18 +42,18 @@ def ball(count: int, seed: int = 1) -> Any:
 
 
 def sphere(count: int) -> Any:
-    """Return points uniform on the unit sphere, shape (count, 3), float64."""
+    """Return points that are uniformly distributed on the unit sphere, as an array of shape (count, 3), float64."""
     points = np.random.default_rng(2).normal(size=(count, 3))
     return points / np.linalg.norm(points, axis=1)[:, None]
 
 
 def cube(count: int) -> Any:
-    """Return points uniform in the cube from -1 to 1, shape (count, 3), float64."""
+    """Return points that are uniformly distributed in the cube from -1 to 1, in an array of shape (count, 3)."""
     return np.random.default_rng(2).uniform(-1, 1, size=(count, 3))
 
 
 def box(count: int) -> Any:
-    """Return points uniform on the surface of the cube from -1 to 1, shape (count, 3), float64."""
+    """Return points on the surface of the cube from -1 to 1, in an array of shape (count, 3), float64."""
     source = np.random.default_rng(3)
     points = source.uniform(-1, 1, size=(count, 3))
     points[np.arange(count), source.integers(0, 3, count)] = source.choice([-1.0, 1.0], count)
@@ -61,7 +61,7 @@ def box(count: int) -> Any:
 
 
 def lattice(side: int) -> Any:
-    """Return all integer points of a cube with this number of points on a side, shape (side**3, 3), int64."""
+    """Return all integer points of a cube with ``side`` points on an edge, as an array of shape (side**3, 3), int64."""
     return np.indices((side, side, side)).reshape(3, -1).T.copy()
 
 

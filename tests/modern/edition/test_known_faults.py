@@ -228,7 +228,7 @@ def test_11_format_21_reads_fourteen_columns_for_z() -> None:
     """The data sheet of chapter 5 (p. 59) gives it 29 to 52."""
     widths = [part.width for part in dict(programs.program("program1").formats)[21].specs if isinstance(part, Field)]
     assert (sum(widths[:2]) + 1, sum(widths[:3])) == (29, 42)
-    assert "29 to 52. FORMAT 21 reads columns 29 to 42" in ENTRIES[11]
+    assert "columns 29 to 52 to z, but FORMAT 21 reads z from columns 29 to 42" in " ".join(ENTRIES[11].split())
 
 
 def ends(first: str, points: list[Triple]) -> set[tuple[Fraction, ...]]:

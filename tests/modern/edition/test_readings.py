@@ -85,7 +85,7 @@ def test_a_step_that_is_not_needed_is_named(monkeypatch) -> None:
     with altered(wrong):
         proof = check_listing(wrong, PLACES)
     assert not proof.holds
-    assert proof.message == "parse: 'I' for '1' is not needed"
+    assert proof.message == "parse: the change of '1' to 'I' is not needed"
 
 
 @contextmanager
