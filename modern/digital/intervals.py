@@ -138,6 +138,10 @@ def write_heights(grid: Grid, faces: Sequence[tuple[Grid, Plane]], rounded_up: b
         return
     triangles = np.array([fan[:3] for fan in fans])
     planes = np.array([fan[3] for fan in fans])
+    # A vertex in line with its neighbours may give a triangle without area, which covers nothing else.
+    (u, v), (s, t) = (triangles[:, k, :2].T - triangles[:, 0, :2].T for k in (1, 2))
+    has_area = u * t > v * s
+    triangles, planes = triangles[has_area], planes[has_area]
     x, y = triangles[:, :, 0], triangles[:, :, 1]
     first, rows = x.min(axis=1), np.ptp(x, axis=1) + 1
     which = np.repeat(np.arange(len(triangles)), rows)
