@@ -10,7 +10,7 @@ from typing import TypeVar
 
 from emulator.compiled import devices, kernel
 from emulator.compiled.runner import BLOCK, INSTEAD, WAYS, Run, Runner, packed, packed_text, why_plain
-from emulator.errors import expect
+from emulator.errors import ArgumentError, expect
 from emulator.jit.functions import NotInstalled
 from emulator.language.cards import Deck, deck_from_text
 from emulator.language.objectcode import Program
@@ -40,7 +40,10 @@ def run_batch(
         For the first deck with an error, as in :meth:`emulator.machine.machine.Machine.run`.
     """
     expect(program, Program, "program")
-    expect(decks, Iterable, "decks")
+    try:
+        decks = iter(decks)
+    except TypeError:
+        raise ArgumentError(f"decks: expected decks, found {type(decks).__name__}") from None
     expect(options, (Options, type(None)), "options")
     options = options or Options()
     runner = _runner(program, options, note)
