@@ -96,9 +96,10 @@ def cells(docs: Path) -> dict[str, Cell]:
 def read_cell(docs: Path, cell: Cell) -> str:
     """Return the text of a cell. Raise FigureError unless exactly one row matches and the column exists."""
     matches = [line for line in _table(docs / cell.table) if tuple(line.values())[: len(cell.row)] == cell.row]
-    if len(matches) != 1 or cell.column not in matches[0]:
-        row = ", ".join(cell.row)
-        raise FigureError(f"{cell.table}: expected one row {row} with column {cell.column}, found {len(matches)} rows")
+    if len(matches) != 1:
+        raise FigureError(f"{cell.table}: expected one row {', '.join(cell.row)}, found {len(matches)} rows")
+    if cell.column not in matches[0]:
+        raise FigureError(f"{cell.table}: expected the column {cell.column}, found {', '.join(matches[0])}")
     return matches[0][cell.column]
 
 

@@ -88,7 +88,8 @@ def download(folder: Path) -> str:
             command += ["--require-hashes", "--only-binary", ":all:", "--dest", str(folder), "-r", str(requirements)]
             process = subprocess.run(command, capture_output=True, text=True, check=False)
         if process.returncode:
-            return f"{folder}: the deposit will be without wheels: {process.stderr.strip().splitlines()[-1:]}"
+            reason = process.stderr.strip().rpartition("\n")[2]
+            return f"{folder}: the deposit will lack {len(wanted)} wheels, because pip failed: {reason}"
     sizes = [path.stat().st_size for path in folder.glob("*.whl")]
     return f"{folder}: {len(sizes)} wheels, {sum(sizes) / 1e6:.1f} MB"
 

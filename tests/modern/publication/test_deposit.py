@@ -212,7 +212,7 @@ def test_wheels_of_other_versions_are_removed_and_missing_ones_downloaded(tmp_pa
         return subprocess.CompletedProcess(command, 1, "", "no network\n")
 
     monkeypatch.setattr(vendored.subprocess, "run", pip)
-    assert "the deposit will be without wheels: ['no network']" in vendored.download(tmp_path)
+    assert "the deposit will lack 1 wheels, because pip failed: no network" in vendored.download(tmp_path)
     assert downloaded == [vendored.locked()[lark] + "\n"]
     assert not list(tmp_path.glob("lark-*"))
 
