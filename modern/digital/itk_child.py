@@ -134,7 +134,7 @@ def _series(sitk: Any, folder: str, series: str) -> Sequence[str]:
 
 
 def _uneven(sitk: Any, files: Sequence[str]) -> list[str]:
-    """Return a note if the slices of a series are not evenly spaced, else an empty list."""
+    """Return a list with a note if the slices of a series are not evenly spaced, otherwise an empty list."""
     positions = []
     normal: list[float] = []
     for name in files:

@@ -126,7 +126,10 @@ def label_notes(scan: Scan) -> tuple[str, ...]:
 
 
 def label_boxes(scan: Scan, labels: Sequence[int] = ()) -> dict[int, tuple[slice, ...]]:
-    """Return, for each label, slices for the box that contains its voxels.  Raise NoVoxels for an absent label."""
+    """Return, for each label, the slices of the smallest box that contains its voxels.
+
+    ``labels`` are the requested labels, by default all. Raise NoVoxels for a label without voxels.
+    """
     sides: dict[int, list[slice]] = {}
     for axis in range(scan.values.ndim):
         first: dict[int, int] = {}

@@ -27,7 +27,7 @@ _MOST_DIGITS, _MOST_EXPONENT = 100, 400
 
 
 class VolumeError(EmulatorError):
-    """Raised for an invalid volume or file of a volume.  The message names the file and the place in it."""
+    """Raised for an invalid volume. The message names the file, if there is one, and the place in the file."""
 
 
 class NoVoxels(VolumeError, PointsError):

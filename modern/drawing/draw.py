@@ -111,7 +111,7 @@ def _points(picture: Scene) -> int:
 
 
 def scene_items(hull: Hull, picture: Scene, layout: Layout) -> list[str]:
-    """Return the SVG elements for faces, edges and points, the hidden ones first."""
+    """Return the SVG elements of faces, edges and points. Hidden edges and points come before visible ones."""
     small = _points(picture) > _MANY
 
     def edges(style: svg.Style, hidden: bool) -> list[str]:

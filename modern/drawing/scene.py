@@ -175,7 +175,7 @@ def _light(normal: Vector, sight: View) -> Fraction:
 
 
 def eye_of(texts: Sequence[str]) -> tuple[Fraction, ...]:
-    """Read the direction of view from three decimal numbers.  Raise ExportError if they are invalid."""
+    """Return the direction of view given by three decimal numbers as text. Raise ExportError if it is invalid."""
     if len(texts) != 3:
         raise ExportError(f"the direction of view: expected 3 numbers X,Y,Z, found {len(texts)}")
     numbers = []

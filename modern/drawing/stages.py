@@ -101,7 +101,7 @@ def row(all_frames: Sequence[Frame], title: str) -> str:
 
 
 def strip(all_frames: Sequence[Frame], title: str = "", columns: int = _COLUMNS) -> str:
-    """Return all stages in rows of the given number of ``columns`` as the text of an SVG file."""
+    """Return the pictures of all stages, in rows of ``columns`` pictures, as the text of an SVG file."""
     cell = (all_frames[0].layout.width, all_frames[0].layout.height + _BAND)
     columns = min(columns, len(all_frames))
     rows = -(-len(all_frames) // columns)
@@ -114,7 +114,7 @@ def strip(all_frames: Sequence[Frame], title: str = "", columns: int = _COLUMNS)
 
 
 def played(all_frames: Sequence[Frame], title: str = "") -> str:
-    """Return an SVG file that shows the stages one after the other, endlessly.
+    """Return the text of an SVG file that shows the stages in turn, endlessly.
 
     If the viewer's system asks for reduced motion, only the last stage is shown.
     """

@@ -1,6 +1,6 @@
 """Four later papers on hulls and hidden lines, one package each, implemented in exact arithmetic.
 
-How to add a fifth paper, ``NAME``.  Commands and the registers of statements write ``-`` for ``_`` in the name:
+These steps add a fifth paper, ``NAME``. Commands and the registers of statements write ``-`` for ``_`` in the name:
 
 1. ``modern/papers/NAME/``: the algorithm, over integers or fractions. ``__init__.py`` cites the paper and exports the
    entry point. If the print is wrong, implement the corrected step and keep the printed one as an option, as
@@ -9,7 +9,7 @@ How to add a fifth paper, ``NAME``.  Commands and the registers of statements wr
    (the emendations) and ``results.toml`` (which lines of the corrected print are one published result). Add the
    source to ``fortran_src/SOURCES.toml``. A paper that prints no values, such as Yau and Srihari's, skips steps 2
    and 3.
-3. ``modern/papers/NAME/results.py``: the function ``produced`` described at :data:`Lines`. Add a ``Paper`` to
+3. ``modern/papers/NAME/results.py``: the function ``produced``, which :data:`Lines` describes. Add a ``Paper`` to
    ``PAPERS`` in ``modern/claims/published.py``. ``hull1620 reproduce NAME`` then compares the results with the print.
 4. ``transcripts/statements/NAME.toml``: a row for each statement of the paper with its verdict, and the name in
    ``DOCUMENTS`` in ``modern/claims/register.py``. The functions that compute its verdicts are in

@@ -161,7 +161,8 @@ def star(hull: Assembled, pair: Pair) -> Star:
     """Compute the star polygon of the line through two points. Raise PictureError if the points define no line."""
     a, b = pair
     reason = {
-        entry.point: f"it lies between {entry.between[0] + 1} and {entry.between[1] + 1}" for entry in hull.deleted
+        entry.point: f"it lies between points {entry.between[0] + 1} and {entry.between[1] + 1}"
+        for entry in hull.deleted
     }
     if hull.preprocessing is not None:
         reason |= dict.fromkeys(hull.preprocessing.deleted, "it is on an inside corner")

@@ -138,7 +138,7 @@ class VoxelHull:
 
     @property
     def polyhedron(self) -> Surface:
-        """The surface of the hull.  Raise VolumeError if the hull is flat."""
+        """The surface of the hull. Raise VolumeError if the hull is flat."""
         if isinstance(self.surface, Flat):
             raise VolumeError(
                 f"{self.source}: expected a hull in space, found a {self.surface.kind}, which has no cell list"

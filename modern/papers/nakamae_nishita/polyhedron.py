@@ -42,7 +42,7 @@ class Polyhedron:
 
 
 def outward(polyhedron: Polyhedron, face: tuple[int, ...]) -> Vector:
-    """Return the outward normal of a face.  Its length is twice the area of the face."""
+    """Return the outward normal of a face, whose length is twice the area of the face."""
     return area_vector(polyhedron.vertices, face[::-1])
 
 
@@ -79,7 +79,7 @@ def open_faults(
         directed.update(sides(face))
     for (a, b), times in sorted(directed.items()):
         if times > 1:
-            yield f"two faces run in the same direction along vertices {edge_name(a, b)}"
+            yield f"two faces run in the same direction along the edge of vertices {edge_name(a, b)}"
         if not directed[b, a]:
             yield f"not closed: only one face at the edge of vertices {edge_name(a, b)}"
     used = {place for edge in directed for place in edge}

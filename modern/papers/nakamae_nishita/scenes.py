@@ -80,7 +80,7 @@ def names() -> tuple[str, ...]:
 
 
 def scene(name: str) -> SceneFile:
-    """Return one of the project's own scenes by its name.  Raise SceneError if it does not exist."""
+    """Return the project's own scene with this name. Raise SceneError if it does not exist."""
     if name not in names():
         raise SceneError(f"{quoted(name)} is not a scene of the project; its scenes are {', '.join(names())}")
     text = files("modern.papers.nakamae_nishita").joinpath("scenes", f"{name}.toml").read_text(encoding="utf-8")

@@ -13,8 +13,8 @@ class Printed:
     """The statements of the paper to apply as printed, although they are wrong. By default all are corrected.
 
     angle
-        Theorem 2 chooses the face with the greatest angle between outward normals. The supporting plane is the one
-        with the least angle.
+        Theorem 2 chooses the face with the greatest angle between outward normals. But the face in the
+        supporting plane has the least angle.
     start
         Section 5 starts from one upright face over each edge of H(A). Points of the floor above such an edge may lie
         below this face. Therefore every edge of the lower chain of the points above an edge of H(A) needs an upright
@@ -47,7 +47,7 @@ class Printed:
 
     @classmethod
     def only(cls, *names: str) -> "Printed":
-        """Return options that apply the named statements as printed.  Raise ValueError for an unknown name."""
+        """Return the object that applies the named statements as printed. Raise ValueError for an unknown name."""
         unknown = [name for name in names if name not in NAMES]
         if unknown:
             raise ValueError(f"{quoted(unknown[0])} is not one of {', '.join(NAMES)}")

@@ -83,7 +83,7 @@ def test_the_star_polygon_of_a_cubes_edge_and_of_its_diagonal() -> None:
         ((0, 9), "point 10 does not exist; the points are 1 to 6"),
         ((-1, 2), "point 0 does not exist; the points are 1 to 6"),
         ((2, 2), "a line needs two different points, found 3 twice"),
-        ((0, 4), "point 5 was deleted: it lies between 1 and 2"),
+        ((0, 4), "point 5 was deleted: it lies between points 1 and 2"),
         ((5, 1), "point 6 was deleted: it equals point 1"),
     ],
 )

@@ -205,7 +205,11 @@ def test_the_outline_is_complete_when_a_merged_face_is_edge_on() -> None:
     [
         (CUBE, CUBE_FACES[1:], "f: not closed: only one face at the edge of vertices 1 and 2, (0, 0, 0) and (1, 0, 0)"),
         (CUBE, [(3, 2, 1, 1), *CUBE_FACES[1:]], "f: face 1 does not have at least three different vertices"),
-        (CUBE, [(0, 1, 2, 3), *CUBE_FACES[1:]], "f: two faces run in the same direction along vertices 1 and 2"),
+        (
+            CUBE,
+            [(0, 1, 2, 3), *CUBE_FACES[1:]],
+            "f: two faces run in the same direction along the edge of vertices 1 and 2",
+        ),
         ([*CUBE[:7], (0, 0, 0)], CUBE_FACES, "f: vertices 1 and 8 are the same point"),
         ([*CUBE[:7], (0, 1, "9/8")], CUBE_FACES, "f: face 2 is not plane, by 0.0623; coplanar_within"),
     ],
