@@ -10,7 +10,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import Decimal
-from itertools import pairwise
+from itertools import pairwise, zip_longest
 
 TOLERANCE = Decimal("1E-6")
 # The second card of each data set of programs 2 and 3. The first card is blank.
@@ -50,12 +50,12 @@ def compare(emulated: Sequence[Sequence[str]], native: Sequence[Sequence[str]]) 
     """
     same = digits = different = 0
     first = ""
-    for n in range(max(len(emulated), len(native))):
-        if n >= min(len(emulated), len(native)):
+    for number, (emulated_deck, native_deck) in enumerate(zip_longest(emulated, native), 1):
+        if emulated_deck is None or native_deck is None:
             different += 1
-            first = first or f"deck {n + 1} is missing"
+            first = first or f"deck {number} is missing"
             continue
-        ours, theirs = list(map(plain, emulated[n])), list(map(plain, native[n]))
+        ours, theirs = list(map(plain, emulated_deck)), list(map(plain, native_deck))
         if ours == theirs:
             same += 1
             continue
@@ -64,7 +64,7 @@ def compare(emulated: Sequence[Sequence[str]], native: Sequence[Sequence[str]]) 
         if not first:
             pairs = [(a, b) for a, b in zip(ours, theirs, strict=False) if a != b]
             a, b = pairs[0] if pairs else (f"{len(ours)} cards", f"{len(theirs)} cards")
-            first = f"deck {n + 1} has {a.strip()!r} emulated, {b.strip()!r} native"
+            first = f"deck {number} has {a.strip()!r} emulated, {b.strip()!r} native"
     return Agreement(same, digits, different, first)
 
 

@@ -10,6 +10,7 @@ import re
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import zip_longest
 from typing import Final, Literal
 
 from emulator.errors import EmulatorError
@@ -196,8 +197,5 @@ def _same_deck(printed: Sequence[str], produced: Sequence[str]) -> bool:
 
 
 def _differences(printed: Sequence[str], produced: Sequence[str]) -> tuple[tuple[int, str, str], ...]:
-    longest = max(len(printed), len(produced))
-    pairs = (
-        (i, printed[i] if i < len(printed) else "", produced[i] if i < len(produced) else "") for i in range(longest)
-    )
-    return tuple((i + 1, a, b) for i, a, b in pairs if a != b)
+    pairs = zip_longest(printed, produced, fillvalue="")
+    return tuple((number, a, b) for number, (a, b) in enumerate(pairs, 1) if a != b)

@@ -17,6 +17,7 @@ from string import ascii_uppercase
 from emulator.language.cards import Card
 from modern.edition import programs
 from modern.edition.apparatus import build
+from modern.edition.edits import common_prefix
 from modern.edition.variants import Statement, statements
 
 LETTERS = (*ascii_uppercase, *(a + b for a in ascii_uppercase for b in ascii_uppercase))
@@ -181,9 +182,8 @@ def _altered_token(was: str, reads: str, columns: Sequence[int]) -> tuple[int, i
     A token is a run of letters and digits between which the card has no blank.  ``columns`` has the column of each
     character on the card.
     """
-    first = next((n for n, (a, b) in enumerate(zip(was, reads, strict=False)) if a != b), min(len(was), len(reads)))
-    least = min(len(was), len(reads)) - first
-    last = len(was) - next((n for n in range(least) if was[-1 - n] != reads[-1 - n]), least)
+    first = common_prefix(was, reads)
+    last = len(was) - min(common_prefix(was[::-1], reads[::-1]), len(was) - first, len(reads) - first)
     while first > 0 and was[first - 1].isalnum() and columns[first - 1] + 1 == columns[min(first, len(columns) - 1)]:
         first -= 1
     while last < len(was) and was[last].isalnum() and columns[last - 1] + 1 == columns[last]:

@@ -176,14 +176,14 @@ def check_files() -> Iterator[tuple[str, bool, str]]:
     Yield triples: the name of the file, True if the hash is right, and a message.
     """
     table = sources()
+    recorded = []
     for excerpt in table.excerpts:
-        same = digest(read(excerpt.file)) == excerpt.sha256
         count = sum(s.last - s.first + 1 for s in excerpt.stretches)
-        message = f"{count} lines of {excerpt.document}" if same else "CHANGED: its hash is not that of SOURCES.toml"
-        yield excerpt.file, same, message
-    for entry in (entry for entry in table.transcriptions if entry.file):
-        same = digest(read(entry.file)) == entry.sha256
-        yield entry.file, same, "a collation" if same else "CHANGED: its hash is not that of SOURCES.toml"
+        recorded.append((excerpt.file, excerpt.sha256, f"{count} lines of {excerpt.document}"))
+    recorded += [(entry.file, entry.sha256, "a collation") for entry in table.transcriptions if entry.file]
+    for file, sha256, message in recorded:
+        same = digest(read(file)) == sha256
+        yield file, same, message if same else "CHANGED: its hash is not that of SOURCES.toml"
     wrong = [file for file, sha in table.decks if digest(read(file)) != sha]
     yield "grounds", not wrong, f"CHANGED: {', '.join(wrong)}" if wrong else f"{len(table.decks)} decks"
 

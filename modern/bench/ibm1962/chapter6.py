@@ -9,6 +9,7 @@ import subprocess
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
+from itertools import zip_longest
 
 from emulator.errors import EmulatorError
 from emulator.language.compiler import compile_deck
@@ -46,9 +47,9 @@ def verdicts(examples: Sequence[int] = EXAMPLES) -> Iterator[CardVerdict]:
 
 def _judged(example: int, printed: Print, cards: Sequence[str]) -> Iterator[CardVerdict]:
     """Yield the verdict on each printed card, and on each punched card after the last printed card."""
-    for number in range(1, max(len(printed.lines), len(cards)) + 1):
-        pair = [lines[number - 1].rstrip() if number <= len(lines) else None for lines in (printed.lines, cards)]
-        yield CardVerdict(example, printed.program, number, SAME if pair[0] == pair[1] else DIFFERENT)
+    for number, (line, card) in enumerate(zip_longest(printed.lines, cards), 1):
+        same = line is not None and card is not None and line.rstrip() == card.rstrip()
+        yield CardVerdict(example, printed.program, number, SAME if same else DIFFERENT)
 
 
 @cache

@@ -3,6 +3,7 @@
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
+from itertools import zip_longest
 from pathlib import Path
 
 from emulator.errors import DeckError
@@ -61,9 +62,7 @@ class Comparison:
     def differences(self) -> Iterator[tuple[str, str]]:
         """Yield pairs of cards or lines that differ: that of the library, then that of the emulator."""
         for library, emulator in zip(self.library, self.emulator, strict=True):
-            length = max(len(library), len(emulator))
-            padded = [(*side, *[""] * (length - len(side))) for side in (library, emulator)]
-            yield from ((a, b) for a, b in zip(*padded, strict=True) if a != b)
+            yield from ((a, b) for a, b in zip_longest(library, emulator, fillvalue="") if a != b)
 
 
 @cache

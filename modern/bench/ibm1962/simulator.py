@@ -8,7 +8,7 @@ import select
 import shutil
 import subprocess
 import time
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -179,18 +179,16 @@ def _execute(
 
 def _result(log: str, punched: Sequence[str]) -> Run:
     trouble, time_counted = _TROUBLE.search(log), _TIME.search(log)
+    lines = _TIME.sub("", _POSITION.sub("", log)).split("\n")
+    # The simulator's own lines come before or after those of the program, depending on the buffers of its version.
+    typed = (line.removeprefix(">") for line in lines if line and not _SIMULATOR.match(line))
     return Run(
-        tuple(_typed(_TIME.sub("", _POSITION.sub("", log)))),
+        tuple(typed),
         tuple(punched),
         {int(address): int(position, 16) for address, position in _POSITION.findall(log)},
         trouble[0] if trouble else "",
         _UNIT * int(time_counted[1]) if time_counted else None,
     )
-
-
-def _typed(log: str) -> Iterator[str]:
-    # The simulator's own lines come before or after those of the program, depending on the buffers of its version.
-    yield from (line.removeprefix(">") for line in log.split("\n") if line and not _SIMULATOR.match(line))
 
 
 def _typewriter(command: list[str], folder: Path, keys: Sequence[str], seconds: float) -> str:

@@ -37,10 +37,6 @@ class Statement:
     values: Sequence[str] = ()
 
     @property
-    def is_input(self) -> bool:
-        return self.verb in ("READ", "ACCEPT")
-
-    @property
     def spec(self) -> FormatSpec:
         """The statement's FORMAT in parsed form."""
         places = tuple(Place(1, min(column, 80)) for column in range(1, len(self.text) + 1))
