@@ -27,12 +27,12 @@ Outcome = tuple[str, bool]
 _MOST_NAMES = 4
 
 
-def _printed(paper: str) -> Lines:
+def corrected_print(paper: str) -> Lines:
     """Return the printed lines of a paper, after the project's emendations, by the id of their result."""
     return printed_lines(next(p for p in PAPERS if p.name == paper))
 
 
-def _numbers(line: str) -> list[int]:
+def numbers_in(line: str) -> list[int]:
     return [int(number) for number in re.findall(r"-?\d+", line)]
 
 
@@ -87,7 +87,7 @@ class HalfBall:
 
 def half_balls() -> Iterator[HalfBall]:
     """Yield the rows of Table 5 as printed, after the project's emendations."""
-    for name, rows in _printed("kovalevsky-schulz").items():
+    for name, rows in corrected_print("kovalevsky-schulz").items():
         if name.startswith("table5-"):
             d, triangles, integers, _, faces, of_cells, per_face = rows[0].split()
             yield HalfBall(int(d), int(triangles), int(integers), int(faces), int(of_cells), per_face)
@@ -117,10 +117,10 @@ def points_at_diameter_14() -> Check:
 
 def numbers_of_ball() -> list[int]:
     """Return the printed counts of the ball of diameter 32: voxels, local corners, triangles and faces."""
-    printed = _printed("kovalevsky-schulz")
+    printed = corrected_print("kovalevsky-schulz")
     names = ("ball-voxels", "ball-corners-6", "ball-corners-26", "ball-triangles", "ball-faces")
     return [
-        _numbers(printed[name][0])[0 if name != "ball-voxels" and name != "ball-triangles" else 1] for name in names
+        numbers_in(printed[name][0])[0 if name != "ball-voxels" and name != "ball-triangles" else 1] for name in names
     ]
 
 
@@ -149,11 +149,11 @@ def triangles_of_360_corners() -> Check:
 @claim("kovalevsky-schulz.39", "kovalevsky-schulz.40", "kovalevsky-schulz.41", "kovalevsky-schulz.42")
 def cell_list() -> Check:
     """Check that the sublists of Tables 1 to 3 agree: every edge is on two vertices and two faces."""
-    printed = _printed("kovalevsky-schulz")
-    ends = {e: (s, t) for e, s, t, _, _ in map(_numbers, printed["table2"])}
-    sides = Counter(face for row in printed["table2"] for face in _numbers(row)[3:])
-    rings = [_numbers(row)[2:] for row in printed["table3"]]
-    at = {n: {*_numbers(row)[-3:]} for n, row in enumerate(printed["table1"], 1)}
+    printed = corrected_print("kovalevsky-schulz")
+    ends = {e: (s, t) for e, s, t, _, _ in map(numbers_in, printed["table2"])}
+    sides = Counter(face for row in printed["table2"] for face in numbers_in(row)[3:])
+    rings = [numbers_in(row)[2:] for row in printed["table3"]]
+    at = {n: {*numbers_in(row)[-3:]} for n, row in enumerate(printed["table1"], 1)}
     signed = {
         n: {sign * e for e, pair in ends.items() for p, sign in zip(pair, (-1, 1), strict=True) if p == n} for n in at
     }
@@ -170,10 +170,10 @@ def cell_list() -> Check:
 @claim("kovalevsky-schulz.83", "kovalevsky-schulz.84")
 def table_4() -> Check:
     """Check that the triangles and the hull of Table 4 can be closed surfaces, with integers by (5) and (6)."""
-    printed = _printed("kovalevsky-schulz")
-    triangles, corners, integers = _numbers(printed["table4-triangulation"][0])
+    printed = corrected_print("kovalevsky-schulz")
+    triangles, corners, integers = numbers_in(printed["table4-triangulation"][0])
     outcomes = [("(5)", 2 * integers == 9 * triangles and abs(triangles - 2 * corners) <= 20)]
-    faces, corners, integers = _numbers(printed["table4-hull"][0])
+    faces, corners, integers = numbers_in(printed["table4-hull"][0])
     outcomes.append(("(6) and a possible hull", integers == 3 * corners + 5 * faces and may_be_convex(corners, faces)))
     return satisfied("Table 4", outcomes)
 
@@ -183,7 +183,7 @@ def table_4() -> Check:
 @claim("nakamae-nishita.55", scene="c")
 def scene_of_solids(scene: str) -> Check:
     """Check that n convex solids can have the printed vertices V and faces F: V <= 2 F - 4 n and F <= 2 V - 4 n."""
-    solids, corners, faces, _ = _numbers(_printed("nakamae-nishita")[f"table1-{scene}"][0].split(")")[1])
+    solids, corners, faces, _ = numbers_in(corrected_print("nakamae-nishita")[f"table1-{scene}"][0].split(")")[1])
     possible = corners <= 2 * faces - 4 * solids and faces <= 2 * corners - 4 * solids and corners >= 4 * solids
     return satisfied(f"Table 1 ({scene})", [("solids", possible)])
 
@@ -191,17 +191,17 @@ def scene_of_solids(scene: str) -> Check:
 @claim("appel-will.20")
 def figure_4() -> Check:
     """Check that each line of the map of Fig. 4 is on two surfaces, which form a sphere."""
-    rows = [line.split()[1].split(",") for line in _printed("appel-will")["fig4-topological-map"]]
+    rows = [line.split()[1].split(",") for line in corrected_print("appel-will")["fig4-topological-map"]]
     return satisfied("Fig. 4", [("sphere", is_sphere(rows))])
 
 
 def _columns(rows: Sequence[str]) -> list[list[int]]:
     """Return the columns of a table whose cells are separated by tabs, without the column of row labels."""
     cells = [row.split("\t")[1:] for row in rows]
-    return [[n for row in cells if k < len(row) for n in _numbers(row[k])] for k in range(len(cells[0]))]
+    return [[n for row in cells if k < len(row) for n in numbers_in(row[k])] for k in range(len(cells[0]))]
 
 
-def _is_closed(loop: Sequence[int], lines: Mapping[int, tuple[int, int]]) -> bool:
+def is_closed_loop(loop: Sequence[int], lines: Mapping[int, tuple[int, int]]) -> bool:
     """Return True if each signed line of a loop begins at the end of the line before it."""
     ways = [lines[abs(n)][:: 1 if n > 0 else -1] for n in loop]
     return all(here[0] == before[1] for before, here in zip([ways[-1], *ways], ways, strict=False))
@@ -211,22 +211,22 @@ def _is_closed(loop: Sequence[int], lines: Mapping[int, tuple[int, int]]) -> boo
 @claim("appel-will.113", "appel-will.114", "appel-will.115", number=23)
 def lines_and_loops(number: int) -> Check:
     """Check that each printed loop of lines (Figs. 14, 22 and 23) is closed and that each line is in two loops."""
-    printed = _printed("appel-will")
+    printed = corrected_print("appel-will")
     first, second = (printed[name] for name in ("fig22-loops-1-3", "fig22-loops-4-5"))
-    fig22 = [_numbers(cell) for row in (first[0], second[0]) for cell in row.split("\t")[1::2]]
+    fig22 = [numbers_in(cell) for row in (first[0], second[0]) for cell in row.split("\t")[1::2]]
     loops = fig22 if number == 14 else _columns(printed["fig23-loops"])
-    rows = map(_numbers, printed["fig14" if number == 14 else "fig23-edges"])
+    rows = map(numbers_in, printed["fig14" if number == 14 else "fig23-edges"])
     lines = {label: (start, end) for label, start, end in rows}
     uses = Counter(abs(n) for loop in loops for n in loop)
     outcomes = [
         ("lines in order", [*lines.values()] == sorted(lines.values())),
         ("V - E + F = 2", len({p for pair in lines.values() for p in pair}) - len(lines) + len(loops) == 2),
         ("every line is on two loops", uses == dict.fromkeys(lines, 2)),
-        *((f"loop {k} is closed", _is_closed(loop, lines)) for k, loop in enumerate(loops, 1)),
+        *((f"loop {k} is closed", is_closed_loop(loop, lines)) for k, loop in enumerate(loops, 1)),
     ]
     if number == 14:
         uses_after = [Counter(abs(n) for loop in fig22[:k] for n in loop) for k in (1, 2, 3)]
-        for label, *counts in map(_numbers, first[1:]):
+        for label, *counts in map(numbers_in, first[1:]):
             outcomes.append((f"IUC of line {label}", counts[::2] == [used[label] for used in uses_after]))
     else:
         corners = [[lines[abs(n)][n < 0] for n in loop] for loop in loops]

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from itertools import combinations, pairwise, product
 from random import Random
 
+from modern.claims.appel_will.proofs import least_surface
 from modern.claims.evidence import Check, Generator, claim, exhausted, exhibited, refuted, search, searched, slip
 from modern.claims.hulls import exact_hull
 from modern.claims.sampled_sets import (
@@ -124,7 +125,8 @@ def deletion_makes_nonconvex() -> Check:
     ring = [(0, 0), (10, 0), (10, 10), (6, 1), (5, 5), (4, 1), (0, 10)]
     before = _convex_points(ring)
     lost = sorted({*before} - {*_convex_points(before)})
-    return exhibited(bool(lost), f"{', '.join(map(str, lost))} is convex at first and nonconvex after a deletion")
+    message = f"{', '.join(map(str, lost))} is convex at first and nonconvex after a deletion"
+    return exhibited(_simple(ring) and lost, message)
 
 
 def _convex_points(ring: Sequence[Flat]) -> list[Flat]:
@@ -150,10 +152,9 @@ def _crosses(ring: Sequence[Flat]) -> bool:
 
 
 def _simple(ring: Sequence[Flat]) -> bool:
-    """Return True if a polygon is counterclockwise, no sides meet, and no angle is 180 degrees."""
-    turned = any(not area(ring[k - 2], ring[k - 1], ring[k]) for k in range(len(ring)))
+    """Return True if a polygon is counterclockwise and no sides meet except neighbours at their common end."""
     is_counterclockwise = sum(area((0, 0), ring[k - 1], ring[k]) for k in range(len(ring))) > 0
-    return len({*ring}) == len(ring) and not _crosses(ring) and not turned and is_counterclockwise
+    return len({*ring}) == len(ring) and not _crosses(ring) and is_counterclockwise
 
 
 @claim("appel-will.15", full=400)
@@ -187,7 +188,7 @@ def _smallest_angle(origin: Flat, points: Sequence[Point]) -> int:
 def polyhedron_property(number: str, cases: int = 2 * CASES) -> Check:
     """Check one of the paper's numbered properties of convex polyhedra on exact hulls."""
     checks = [right for points, judge in _hulls(cases) for right in _PROPERTIES[number](points, judge)]
-    return searched(SETS[3], cases, checks, f"the property of convex polyhedra holds in {len(checks)} cases")
+    return searched(SETS[3], cases, checks, f"all {len(checks)} conditions of the property hold")
 
 
 def _cones(points: Sequence[Point], judge: ExactHull) -> list[bool]:
@@ -227,15 +228,9 @@ _PROPERTIES = {"2": _cones, "3": _dihedral, "4": _faces}
 ARM = 9
 
 
-@claim("appel-will.33", full=100)
-def surfacearea(cases: int = 1) -> Check:
-    """Check that hulls have less surface than convex bodies around them, but a nonconvex star less than its hull."""
-    outcomes = []
-    for points, judge in _hulls(cases):
-        whole = _surface([*points])
-        for k in judge.vertices:
-            rest = [point for point in points if point != points[k]]
-            outcomes += [_surface(rest) < whole] if exact_hull(rest).dimension == len("xyz") else []
+@claim("appel-will.33")
+def surface_of_star() -> Check:
+    """Prove that the hull has the least surface of all convex bodies, and check that a star has less than its hull."""
     cubes = (
         {(k, 0, 0) for k in range(ARM + 1)} | {(0, k, 0) for k in range(ARM + 1)} | {(0, 0, k) for k in range(ARM + 1)}
     )
@@ -243,8 +238,8 @@ def surfacearea(cases: int = 1) -> Check:
     # The surface of the star is the number of cube faces with no cube on their other side.
     star = sum((x + i, y + j, z + k) not in cubes for x, y, z in cubes for i, j, k in ways)
     around = _surface(sorted({(x + i, y + j, z + k) for x, y, z in cubes for i, j, k in CUBE}))
-    check = searched(SETS[3], cases, outcomes, f"{len(outcomes)} hulls have less surface after a vertex is removed")
-    return check.unless(star < around, f"three arms of cubes, whose surface is {star}, and their hull's {around:.0f}")
+    case = f"a star with three arms of cubes, whose surface is {star}, whereas that of its hull is {around:.0f}"
+    return least_surface().check().unless(star < around, case)
 
 
 def _surface(points: list[Point]) -> float:
@@ -261,9 +256,10 @@ def _surface(points: list[Point]) -> float:
 def number_of_combinations() -> Check:
     """Check that the number of combinations is N! / (r! (N - r)!); the print lacks the outer brackets."""
     f = math.factorial
-    pairs = [(n, r) for n in range(2, 13) for r in range(1, n + 1)]
+    pairs = [(n, r) for n in range(13) for r in range(n + 1)]
     outcomes = [len([*combinations(range(n), r)]) * f(r) * f(n - r) == f(n) for n, r in pairs]
-    check = exhausted("combinations of at most 12 objects", outcomes, "5! / 2! 3! is 360 and not the 10 pairs of five")
+    message = "(5! / 2!) 3! is 360, but five objects have 10 pairs"
+    check = exhausted("combinations of at most 12 objects", outcomes, message)
     return check.misprinted(f(5) // f(2) * f(3) != len([*combinations(range(5), 2)]), "N! / (r! (N - r)!)")
 
 
@@ -353,4 +349,5 @@ def planar_graph(cases: int = CASES) -> Check:
             at = [(ring, ring.index(vertex)) for ring in rings if vertex in ring]
             checks.append(is_closed_curve([(ring[k - 1], ring[(k + 1) % len(ring)]) for ring, k in at]))
         checks.append(len(hull.vertices) - len(hull.edges()) + len(hull.facets) == 2)
-    return searched(SETS[3], cases, checks, f"{len(checks)} conditions of faces, vertices and hulls hold")
+    message = f"{len(checks)} conditions hold: faces are rings, they form a ring at each vertex, and V - E + F = 2"
+    return searched(SETS[3], cases, checks, message)

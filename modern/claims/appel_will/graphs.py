@@ -75,7 +75,8 @@ def coplanar_loops(cases: int = CASES) -> Check:
             if len(three) == len(first_edge) + 1:
                 checks.append(sum(three <= {*facet.polygon} for facet in judge.facets) <= 1)
         checks.append(len({facet.plane for facet in judge.facets}) == len(judge.facets))
-    return searched(SETS[3], cases, checks, f"true for {len(checks)} pairs of edges and hulls")
+    message = f"in {len(_sets(cases))} hulls, no two edges are on two common loops, and no two loops are coplanar"
+    return searched(SETS[3], cases, checks, message)
 
 
 @claim("appel-will.32", full=400)

@@ -54,7 +54,7 @@ def triangle_area() -> Proof:
         return a[0] * (b[1] - c[1]) - a[1] * (b[0] - c[0]) + (b[0] * c[1] - b[1] * c[0])
 
     return Proof(
-        "the determinant is positive counterclockwise, negative clockwise, and 0 for collinear points",
+        "half of the determinant is the area, positive if counterclockwise, negative if clockwise, 0 if collinear",
         "Let the vector u be the first side. The third corner is the first corner plus a multiple of u plus h times "
         "the vector u turned left by 90 degrees. The determinant equals h times the square of the length of u. This "
         "product is the base times the signed height, because the turned vector is as long as u.",
@@ -143,7 +143,8 @@ def points_of_hull() -> Proof:
     return Proof(
         "a combination of points is on the inner side of every plane that has all these points on this side",
         "The points of the hull are the combinations of the vertices, and all vertices are on the inner side of each "
-        "plane. So adding any number of the infinitely many points inside, for example apexes of pits, keeps the hull.",
+        "plane. So the object determines its hull, and the hull stays the same if any of the infinitely many points "
+        "inside it is added to the object, for example as the apex of a pit.",
         combination_satisfies(),
     )
 
@@ -182,6 +183,56 @@ def three_planes() -> Proof:
     )
 
 
+def least_surface() -> Proof:
+    """Prove that the hull has the least surface of all convex bodies that contain the points."""
+    n, m = point("n", 3), point("m", 3)
+    difference = dot(n, n) * dot(m, m) - dot(n, m) * dot(n, m)
+    return Proof(
+        "the hull has the least surface of all convex bodies that contain the points",
+        "Each plane of the hull cuts a part off such a body, or nothing. The surface of this part, projected onto the "
+        "plane, covers the section that replaces it. A projection does not enlarge areas, because it multiplies them "
+        "by the cosine of the angle between the normals n and m, whose square is at most 1. So no cut enlarges the "
+        "surface of the body, and after all cuts the hull remains.",
+        (
+            Step(
+                "the square of n m is at most that of n times that of m",
+                {},
+                not_negative(difference),
+                tuple(term("", c) for c in cross(n, m)),
+            ),
+        ),
+    )
+
+
+def inside_corner() -> Proof:
+    """Prove that the triple product of a line and its surfaces is negative exactly if the line is an inside corner."""
+    i, k, second = (point(name, 3) for name in "ikl")
+    triple = dot(i, cross(k, second))
+    return Proof(
+        "the triple product is negative exactly at inside corners, if the line runs counterclockwise on the first "
+        "surface; otherwise it has the opposite sign",
+        "Seen from outside, the first surface, with the inward normal K, is to the left of the line I, and the second, "
+        "with the normal L, to its right. So the second surface extends from the line in the direction L x I. Its "
+        "product with K is negative exactly if the second surface is on the outer side of the first, where the angle "
+        "inside the object exceeds 180 degrees. A reversed line runs counterclockwise on the other surface.",
+        (
+            Step("the product of K and L x I is [IKL]", {}, zero(dot(k, cross(second, i)) - triple)),
+            Step("[ILK] has the opposite sign", {}, zero(dot(i, cross(second, k)) + triple)),
+        ),
+    )
+
+
+def outside_corners() -> Proof:
+    """Prove that a vertex of the hull is on at least three outside corners of the object."""
+    return Proof(
+        "a vertex of the hull is on at least three outside corners",
+        "Some plane touches the object only at the vertex. Cut the object near it by a parallel plane. The hull "
+        "of the section has at least three corners. By the step, the section is not concave at a corner of its hull, "
+        "so that the line from the vertex to this corner is an outside corner of the object.",
+        concave_point().steps,
+    )
+
+
 def concave_point() -> Proof:
     """Prove that a point at which a surface of the object is concave is no vertex of the hull."""
     first, second = variables("L_u L_v")
@@ -201,11 +252,13 @@ def concave_point() -> Proof:
     )
 
 
-@claim("appel-will.27", "appel-will.79", "appel-will.91", proof=points_of_hull)
+@claim("appel-will.27", "appel-will.79", proof=points_of_hull)
 @claim("appel-will.31", proof=projections)
 @claim("appel-will.38", proof=fewer_pairs)
-@claim("appel-will.72", "appel-will.136", proof=three_planes)
+@claim("appel-will.72", proof=three_planes)
+@claim("appel-will.74", proof=outside_corners)
 @claim("appel-will.75", proof=concave_point)
+@claim("appel-will.85", "appel-will.140", proof=inside_corner)
 @claim("appel-will.157", proof=product_of_lines)
 @claim("appel-will.49", "appel-will.50", "appel-will.51", proof=triangle_area)
 @claim("appel-will.52", "thesis.214", proof=inside_triangle)

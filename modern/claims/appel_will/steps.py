@@ -2,34 +2,36 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import combinations, pairwise, permutations
+from itertools import combinations, permutations
 from random import Random
 
 from modern.claims.appel_will.convexity import RINGS, Flat, area, holds_origin
 from modern.claims.evidence import Check, Generator, claim, exhibited, search, slip
 from modern.claims.hulls import exact_hull
+from modern.claims.invariants import corrected_print, is_closed_loop, numbers_in
+from modern.claims.published import PAPERS, results_of
 from modern.claims.sampled_sets import Point, counterexample_points
-from modern.papers.appel_will import Method, appel_will, printed
+from modern.papers.appel_will import appel_will, printed
 from modern.papers.appel_will.corners import triple_product
-from modern.papers.appel_will.results import found_solid
 from modern.papers.appel_will.star import as_corrected, as_printed, on_one_ray, star_polygon, vorticity
 
-# The vectors I, K and L of [512], [723] and [643].
-FIG_18: tuple[tuple[Point, Point, Point], ...] = (
-    ((-1, 0, 0), (0, 0, -1), (0, -1, 0)),
-    ((-1, 0, 0), (0, -1, 0), (0, 0, -1)),
-    ((1, 0, 0), (0, -1, 0), (0, 0, -1)),
-)
+
+def fig_18() -> list[tuple[Point, Point, Point, int]]:
+    """Return the printed vectors I, K and L (the columns) and the printed value of [512], [723] and [643]."""
+    rows = [numbers_in(line.partition("=")[2]) for line in corrected_print("appel-will")["fig18"][::2]]
+    return [((a, b, c), (d, e, f), (g, h, i), value) for a, d, g, b, e, h, c, f, i, value in rows]
 
 
-# Only polygons that are not convex; without them, nothing has to be deleted.
+def _turns(ring: Sequence[Flat]) -> list[int]:
+    return [area(ring[k - 2], ring[k - 1], ring[k]) for k in range(len(ring))]
+
+
+# Two collinear sides make one side of the hull, which is no new line.
 NONCONVEX: Generator[tuple[Flat, ...]] = replace(
-    RINGS, name=f"{RINGS.name}, not convex", accepts=lambda ring: RINGS.accepts(ring) and not _is_convex(ring)
+    RINGS,
+    name=f"{RINGS.name}, not convex and without angles of 180 degrees",
+    accepts=lambda ring: RINGS.accepts(ring) and min(_turns(ring)) < 0 and 0 not in _turns(ring),
 )
-
-
-def _is_convex(ring: Sequence[Flat]) -> bool:
-    return all(area(ring[k - 2], ring[k - 1], ring[k]) > 0 for k in range(len(ring)))
 
 
 @claim("appel-will.128", full=5_000)
@@ -86,7 +88,8 @@ def change_of_sense(cases: int = 20) -> Check:
         is_outside = not on_side and sum(crossings) % 2 == 0
         return (is_outside or min(turns) >= 0 or max(turns) <= 0) and not (is_outside and holds_origin(images))
 
-    return search(IMAGES, is_right, cases, "a change of sense is seen only from outside the star polygon and the hull")
+    message = "a change of sense is seen only from outside the star polygon, and from there only outside its hull"
+    return search(IMAGES, is_right, cases, message)
 
 
 @claim("appel-will.119", full=1_000)
@@ -114,33 +117,15 @@ def opposite_images(cases: int = 10) -> Check:
     return search(IMAGES, is_inside, cases, "all orders of the images give the same result")
 
 
-@claim("appel-will.101")
-def step_3_as_printed() -> Check:
-    """Check that step 3 of the loop algorithm, as printed, changes only the direction of some loops."""
-    solids = [found_solid(name).points for name in ("fig14", "fig23")]
-    preferred, plain = ([appel_will(p, method=m) for p in solids] for m in (Method(), printed("step3")))
-    same = all(
-        {*map(frozenset, a.surfaces)} == {*map(frozenset, b.surfaces)} for a, b in zip(preferred, plain, strict=True)
-    )
-    reversed_loops = sum(
-        {*x.entries} == {-entry for entry in y.entries}
-        for a, b in zip(preferred, plain, strict=True)
-        for x, y in zip(a.table.loops, b.table.loops, strict=True)
-    )
-    check = exhibited(same, "step 3 finds the faces of Figs. 14 and 23 from any other edge")
-    return check.unless(
-        reversed_loops == 3, "the step as printed, which runs three of the twelve printed loops the other way"
-    )
-
-
 @claim("appel-will.111")
 def fourth_loop() -> Check:
-    """Check that the last entry of the fourth loop of Fig. 22 must have its minus sign."""
-    hull = appel_will(counterexample_points("fig14.csv"))
-    (loop,) = (loop.entries for loop in hull.table.loops if {4, 6, 9} <= {*loop.entries})
-    as_it_is, without = (_joined(entries, hull.edges) for entries in (loop, (*loop[:-1], abs(loop[-1]))))
-    corrected = [*loop] == [4, 6, 9, -5] and as_it_is
-    return slip(without, corrected, "4 6 9 -5", "4 6 9 5 does not run around a face, and 4 6 9 -5 does")
+    """Check that the fourth loop of Fig. 22 is closed only if its last entry has a minus sign."""
+    lines = {label: (start, end) for label, start, end in map(numbers_in, corrected_print("appel-will")["fig14"])}
+    (result,) = (result for result in results_of(PAPERS[0]) if result.id == "fig22-loops-4-5")
+    as_printed, corrected = (numbers_in(text.split("\t")[1]) for text in (result.printed[0], result.corrected[0]))
+    reading = " ".join(map(str, corrected))
+    message = f"the loop {' '.join(map(str, as_printed))} of the lines of Fig. 14 is not closed, but {reading} is"
+    return slip(is_closed_loop(as_printed, lines), is_closed_loop(corrected, lines), reading, message)
 
 
 @claim("appel-will.148")
@@ -163,17 +148,11 @@ def _comes_again(edges: Sequence[tuple[int, int]], start: int, common: int, matc
     return match != start
 
 
-def _joined(entries: Sequence[int], edges: Sequence[tuple[int, int]]) -> bool:
-    ends = [edges[abs(e) - 1] if e > 0 else edges[abs(e) - 1][::-1] for e in entries]
-    return all(a[1] == b[0] for a, b in pairwise([*ends, ends[0]]))
-
-
 @claim("appel-will.159")
 def product_with_repeated_vector() -> Check:
     """Check that the determinants of Fig. 18 are right with the index l, and 0 with the printed index i."""
-    determinants = []
-    for i, k, m in FIG_18:
-        determinants.append((triple_product(i, k, i), triple_product(i, k, m)))
-    with_i, with_l = (", ".join(map(str, column)) for column in zip(*determinants, strict=True))
-    message = f"the determinants are {with_l} with l, and {with_i} with i as displayed"
-    return slip(any(d[0] for d in determinants), [d[1] for d in determinants] == [1, -1, 1], "l", message)
+    determinants = [(triple_product(i, k, i), triple_product(i, k, m), value) for i, k, m, value in fig_18()]
+    with_i, with_l, printed_values = zip(*determinants, strict=True)
+    shown_i, shown_l = (", ".join(map(str, values)) for values in (with_i, with_l))
+    message = f"the determinants are {shown_l} with l, and {shown_i} with i as displayed"
+    return slip(any(with_i), with_l == printed_values, "l", message)

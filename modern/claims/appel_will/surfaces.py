@@ -5,22 +5,21 @@ from collections.abc import Collection, Sequence
 from functools import cache
 from itertools import combinations, pairwise, product
 
-from modern.claims.appel_will.convexity import CUBE, RINGS, Flat, area
-from modern.claims.appel_will.steps import FIG_18
-from modern.claims.evidence import Check, claim, exhausted, exhibited, refuted, search, slip
+from modern.claims.appel_will.convexity import CUBE, RINGS, Flat
+from modern.claims.appel_will.proofs import outside_corners
+from modern.claims.evidence import Check, claim, exhibited, refuted, search, slip
 from modern.claims.hulls import exact_hull
-from modern.claims.invariants import is_sphere
+from modern.claims.invariants import corrected_print, is_sphere, numbers_in
 from modern.claims.kovalevsky_schulz.proofs import vertex_is_no_combination
-from modern.claims.published import PAPERS, findings, printed_lines
+from modern.claims.published import PAPERS, findings, results_of
 from modern.claims.sampled_sets import Plane, Point, counterexample, counterexample_points, plane_value
 from modern.formats.off import parse_off
 from modern.geometry.mesh import sides
 from modern.geometry.vectors import area_vector, cross, dot, lowest, minus
 from modern.papers.appel_will import Method, appel_will
-from modern.papers.appel_will.corners import Rule, corners, preprocess, triple_product
+from modern.papers.appel_will.corners import Rule, preprocess
 from modern.papers.appel_will.results import Solid, printed_solid
 from modern.papers.appel_will.star import as_corrected
-from modern.papers.appel_will.surfaces import lines, oriented
 
 TETRAHEDRON: tuple[Point, ...] = ((0, 0, 0), (12, 0, 0), (0, 12, 0), (0, 0, 12))
 # The apex of the pit in each face of the tetrahedron.
@@ -34,7 +33,7 @@ PITS: dict[tuple[int, int, int], Point] = {
 
 @cache
 def fig_4() -> Solid:
-    return printed_solid(printed_lines(next(paper for paper in PAPERS if paper.name == "appel-will")))
+    return printed_solid(corrected_print("appel-will"))
 
 
 def crown() -> Solid:
@@ -77,7 +76,7 @@ def changes_of_hull() -> Check:
     block = solid_of_cubes([cube for cube in product(range(3), repeat=3) if cube != (1, 1, 2)])
     changes = [_changes(solid) for solid in (fig_4(), twisted(), block)]
     deleted, new_lines, new_planes = changes[0]
-    message = f"the hull of Fig. 4 lacks {deleted} points and has {new_lines} new lines and {new_planes} new planes"
+    message = f"the hull of Fig. 4: {deleted} points deleted, new lines: {new_lines}, new planes: {new_planes}"
     others = changes[1][0] == 0 < min(changes[1][1:]) and changes[2][0] > 0 == max(changes[2][1:])
     case = "a twisted prism, all points of which remain, and a block with a pit, whose hull has no new line or plane"
     return exhibited(min(changes[0]) > 0, message).unless(others, case)
@@ -104,12 +103,14 @@ def _changes(solid: Solid) -> tuple[int, int, int]:
 def surface_three() -> Check:
     """Check that the object of Fig. 4 is not closed with surface III as printed: some lines have only one surface."""
     mesh = parse_off(counterexample("fig4_printed.off"), "fig4_printed.off")
-    sides = Counter(frozenset(pair) for face in mesh.faces for pair in zip(face, (*face[1:], face[0]), strict=True))
-    alone = sorted(tuple(sorted(k + 1 for k in side)) for side, n in sides.items() if n == 1)
-    rings = [[k + 1 for k in face] for face in mesh.faces]
-    corrected = is_sphere([[5, 6, 9, 10] if ring == [5, 6, 10, 9] else ring for ring in rings])
+    solid = Solid((), tuple(tuple(k + 1 for k in face) for face in mesh.faces))
+    corrected = [numbers_in(row) for row in corrected_print("appel-will")["fig4-topological-map"]]
+    (result,) = (result for result in results_of(PAPERS[0]) if result.id == "fig4-topological-map")
+    printed = [*corrected[:2], numbers_in(result.printed[2]), *corrected[3:]]
+    alone = sorted(tuple(sorted(line)) for line, count in _surfaces_at_lines(solid).items() if count == 1)
     message = f"lines on one surface only: {', '.join(f'{a}-{b}' for a, b in alone)}"
-    return slip(not alone, corrected, "5, 6, 9, 10", message)
+    is_refuted = alone and printed == [[*face] for face in solid.surfaces]
+    return slip(not is_refuted, is_sphere(corrected), ", ".join(map(str, corrected[2])), message)
 
 
 @claim("appel-will.155")
@@ -124,7 +125,7 @@ def inside_corner_at_vertex() -> Check:
 
 
 def prism(ring: tuple[Flat, ...]) -> Solid:
-    """Return a prism on a simple polygon; three of its planes meet at each point."""
+    """Return a prism on a simple polygon; at most three of its planes meet at each point."""
     n = len(ring)
     sides = [(k, (k + 1) % n, (k + 1) % n + n, k + n) for k in range(n)]
     points = tuple((x, y, z) for z in (0, 1) for x, y in ring)
@@ -137,25 +138,11 @@ def keeps_vertices(ring: tuple[Flat, ...], rule: Rule) -> bool:
     return not {*preprocess(solid.points, solid.surfaces, rule).deleted} & {*exact_hull(solid.points).vertices}
 
 
-@claim("appel-will.72", "appel-will.136", rule="any", full=2_000)
+@claim("appel-will.72", rule="any", full=2_000)
 @claim("appel-will.75", rule="concave", full=2_000)
 def deletion_in_prisms(rule: Rule, cases: int = 5) -> Check:
-    """Check that a deletion rule deletes no vertex of the hull of a prism, at each point of which three planes meet."""
+    """Check that a rule deletes no vertex of the hull of a prism, at whose points at most three planes meet."""
     return search(RINGS, lambda ring: keeps_vertices(ring, rule), cases, "no vertex of the hull is deleted")
-
-
-@claim("appel-will.74")
-def deletion_in_blocks() -> Check:
-    """Check that rule two deletes no vertex of the hull of a solid of cubes, and that it deletes other points."""
-    block = [solid_of_cubes((CUBE[0], *cubes)) for cubes in combinations(CUBE[1:], 4)]
-    solids = [solid for solid in block if {*_surfaces_at_lines(solid).values()} == {2}]
-    outcomes = []
-    for solid in solids:
-        deleted = {*preprocess(solid.points, solid.surfaces, "two").deleted}
-        outcomes.append(deleted and not deleted & {*exact_hull(solid.points).vertices})
-    domain = "solids of the first and four other cubes of a block of eight, if each line is on two surfaces"
-    message = f"{len(outcomes)} of {len(block)} solids are closed and lose points, but no vertex of their hulls"
-    return exhausted(domain, outcomes, message)
 
 
 def _surfaces_at_lines(solid: Solid) -> Counter[frozenset[int]]:
@@ -176,53 +163,49 @@ def solid_of_cubes(cubes: Collection[tuple[int, ...]]) -> Solid:
 
 @claim("appel-will.73")
 def two_inside_corners() -> Check:
-    """Check that the limit of one outside corner keeps all vertices; without it, the apex of the crown is deleted."""
+    """Prove that the limit of one outside corner keeps all vertices; without it, the apex of the crown is deleted."""
     solid = crown()
     vertices = {*exact_hull(solid.points).vertices}
     preprocessed = preprocess(solid.points, solid.surfaces, "two")
     at = Counter(end for corner in preprocessed.inside for end in corner.line.ends)
     wrong = [k for k, count in at.items() if count >= 2 and k in vertices]
-    message = f"point {', '.join(f'{k + 1} is on {at[k]} inside corners' for k in wrong)} and is a vertex of the hull"
-    return deletion_in_blocks().unless(wrong, message)
+    points = ", ".join(f"point {k + 1} of the crown, a vertex of the hull on {at[k]} inside corners" for k in wrong)
+    return outside_corners().check().unless(wrong, points)
 
 
 @claim("appel-will.152")
 def preprocessing_saves() -> Check:
-    """Check that deleting the inside corners of Fig. 4 saves projections and star polygons."""
-    solid, counts, stars = fig_4(), {}, [0]
+    """Check that deleting the points on inside corners of Fig. 4 saves projections and star polygons."""
+    solid, counts, stars = fig_4(), [], [0]
 
     def counted(images: object) -> bool:
         stars[0] += 1
         return as_corrected(images)  # type: ignore[arg-type]
 
-    for rule in (None, "any", "two"):
+    for rule in (None, "any"):
         stars[0] = 0
         hull = appel_will(solid.points, solid.surfaces, Method(star=counted, inside_corners=rule))
-        counts[rule] = (hull.projections, stars[0])
-    plain, fewer = counts[None], counts["any"]
-    message = f"{plain[0]} projections and {plain[1]} stars; {fewer[0]} and {fewer[1]} after two points are deleted"
-    check = exhibited(fewer[0] < plain[0] and fewer[1] < plain[1], message)
-    return check.unless(counts["two"] == plain, "rule two, which deletes no point of Fig. 4 and saves nothing")
+        counts.append((hull.projections, stars[0]))
+    plain, fewer = (f"{projections} projections and {tests} star polygon tests" for projections, tests in counts)
+    saved = all(after < before for before, after in zip(*counts, strict=True))
+    return exhibited(saved, f"in Fig. 4, {plain}; after the points on inside corners are deleted, {fewer}")
 
 
 @claim("appel-will.154")
 def minimum_data() -> Check:
-    """Check that the surfaces of Fig. 4, as sets of points, determine its lines, whereas its points alone do not."""
-    solid = fig_4()
-    sets = [frozenset(surface) for surface in solid.surfaces]
-    shared = Counter(
-        pair
-        for first_set, second_set in combinations(sets, 2)
-        if len(both := first_set & second_set) == 2
-        for pair in [both]
-    )
-    mapped = {frozenset(line.ends) for line in lines(oriented(solid.points, solid.surfaces))}
-    without = {frozenset(edge) for edge in exact_hull(solid.points).edges()}
-    cube = exact_hull(CUBE)
-    message = f"{len(sets)} surfaces of Fig. 4 determine its {len(mapped)} lines, and its points alone do not"
-    points_enough = (len(cube.vertices), len(cube.facets)) == (8, 6)
-    check = exhibited({*shared} == mapped != without, message)
-    return check.unless(points_enough, "a cube, whose points are enough")
+    """Check that a twisted prism and its hull have the same points but other lines; two objects need less than a map.
+
+    The lines of Fig. 4 follow from the sets of points of its surfaces, and all of a cube from its points.
+    """
+    solid, figure, cube = twisted(), fig_4(), exact_hull(CUBE)
+    judge = exact_hull(solid.points)
+    differ = {*_surfaces_at_lines(solid)} != {*map(frozenset, judge.edges())}
+    shared = {first & second for first, second in combinations(map(frozenset, figure.surfaces), 2)}
+    of_sets = {pair for pair in shared if len(pair) == 2} == {*_surfaces_at_lines(figure)}
+    message = f"a twisted prism and its hull have the same {len(judge.vertices)} points but different lines"
+    check = exhibited(differ and len(judge.vertices) == len(solid.points), message)
+    case = "a cube, whose points are enough, and Fig. 4, whose lines follow from its surfaces as sets of points"
+    return check.unless(of_sets and (len(cube.vertices), len(cube.facets)) == (8, 6), case)
 
 
 @claim("appel-will.77")
@@ -241,11 +224,11 @@ def hulls_of_surfaces() -> Check:
     own = all(s.index(apex) in exact_hull([solid.points[k] for k in s]).vertices for s in surfaces_at)
     unrelated = own and apex not in exact_hull(solid.points).vertices
     check = exhibited(unrelated, "the apex of a pit is a vertex of the hulls of its surfaces, but not of the hull")
-    case = "a vertex of the hull, which is a vertex of the hull of each of its surfaces (proved)"
+    case = "the proved relation that a vertex of the object's hull is a vertex of the hull of each of its surfaces"
     return check.unless(vertex_is_no_combination().check().holds, case)
 
 
-@claim("appel-will.138", "appel-will.76")
+@claim("appel-will.91", "appel-will.138", "appel-will.76")
 def vertex_without_supporting_surface() -> Check:
     """Check that a vertex of the hull need not be on a surface of the object whose plane supports the hull."""
     solid = pitted()
@@ -256,7 +239,9 @@ def vertex_without_supporting_surface() -> Check:
         supporting += max(values) <= 0 or min(values) >= 0
     passed = supporting == 0 and exact_hull(solid.points).vertices == (0, 1, 2, 3)
     passed &= len({*planes.values()}) == len(solid.surfaces) == 12
-    message = f"{supporting} of {len({*planes.values()})} planes of surfaces support, but the hull has four vertices"
+    message = (
+        f"an object with {len(planes)} surfaces, whose hull is a tetrahedron; planes that support it: {supporting}"
+    )
     return exhibited(passed, message)
 
 
@@ -274,30 +259,6 @@ def product_of_directions() -> Check:
     products = dot(u, v), dot(u, (0, 1, 0))
     is_refuted = any(cross(u, v)) and products[0] < 0 == products[1]
     return refuted(is_refuted, f"the product is {products[0]} for an obtuse angle, and {products[1]} for a right one")
-
-
-@claim("appel-will.85", full=2_000)
-def sign_at_concave_corners(cases: int = 5) -> Check:
-    """Check that the triple product is negative exactly at the vertical lines of a prism over concave corners."""
-
-    def is_right(ring: tuple[Flat, ...]) -> bool:
-        solid, n = prism(ring), len(ring)
-        inside = {
-            min(c.line.ends) for c in corners(solid.points, oriented(solid.points, solid.surfaces)) if c.product < 0
-        }
-        return inside == {k for k in range(n) if area(ring[k - 1], ring[k], ring[(k + 1) % n]) < 0}
-
-    return search(RINGS, is_right, cases, "only lines at concave corners have a negative product")
-
-
-@claim("appel-will.140")
-def sense_of_line() -> Check:
-    """Check that the determinants of Fig. 18 change sign if the line is reversed or its two surfaces are exchanged."""
-    outcomes = []
-    for i, k, m in FIG_18:
-        product_ = triple_product(i, k, m)
-        outcomes.append(product_ == -triple_product(minus((0, 0, 0), i), k, m) == -triple_product(i, m, k) != 0)
-    return exhibited(all(outcomes), "the products change sign if the line is reversed or the surfaces are exchanged")
 
 
 @claim("appel-will.80")
