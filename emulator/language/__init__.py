@@ -29,15 +29,21 @@ To add a kind of statement:
 To add a FORMAT code that transfers a number:
 
 1. ``emulator/numbers/fields.py``: its letter in ``FieldKind``, and functions that read and write the field, with the
-   column arithmetic in ``emulator/numbers/columns.py``.
+   column arithmetic in ``emulator/numbers/columns.py``, and for IBM's library of 1962 in
+   ``emulator/numbers/columns1962.py``.
 2. ``formats.py``: the letter in ``_KINDS`` and its widths in ``_Reader.one``.  Remove it from ``FOREIGN_FIELDS`` in
    ``foreign.py``.  In ``_Reader.one``, also add the letter to the message that lists the codes and to the test for
    decimals.
 3. ``emulator/machine/devices.py`` and ``emulator/compiled/devices.py``: call the new functions for an ITEM.  The
    constants at the top of ``compiled/devices.py``, and ``_KINDS`` and ``WAYS`` in ``compiled/runner.py``, number the
-   kinds.
-4. ``emulator/machine/timing.py``: the times of reading and writing the field.
-5. Tests: ``tests/emulator/language/test_formats.py`` and ``tests/emulator/numbers/test_fields.py``.
+   kinds.  ``_check_mode`` and its callers in ``machine/devices.py``, and the same tests in the other devices and
+   runtimes, assume that every code except I belongs to a floating-point number; a further fixed-point code must be
+   added to these tests.
+4. ``emulator/translation/runtime.c`` and ``runtime.f90``: read and write the field.
+5. ``ibm1962.py``: the digit of the letter in ``KINDS``, for object decks.
+6. ``emulator/machine/timing.py``: the times of reading and writing the field.
+7. ``docs/reference/fortran.md``: a row of the table of FORMAT codes.
+8. Tests: ``tests/emulator/language/test_formats.py`` and ``tests/emulator/numbers/test_fields.py``.
 
 A code that transfers no number, like X and H, is a class next to ``Literal`` in ``formats.py`` and a member of
 ``Spec``.  It needs a case in ``_pass_spec`` of ``emulator/machine/forms.py``, ``_forms`` of

@@ -12,7 +12,8 @@ To add a verdict on a statement:
 2. Write a check in the module of ``modern/claims/DOCUMENT/`` that deals with the subject: a function with the decorator
    ``claim`` that returns a :class:`~modern.claims.evidence.Check`.  Choose the constructor by what is computed:
    ``proved``, ``exhausted``, ``searched`` or ``search``, ``exhibited``, ``refuted``, ``slip``.  Sampled sets and
-   counterexamples come from :mod:`modern.claims.sampled_sets`.
+   counterexamples come from :mod:`modern.claims.sampled_sets`.  With ``full=N`` in ``claim``, the check also has a full
+   search of N cases.  Run ``make claims`` and commit its result in ``transcripts/statements/full.csv``.
 3. If the statement needs a condition, compute a case that violates it and refutes the statement, and add
    ``.unless(refutes, "the case")``.
 4. If the verdict is "does not hold", put the smallest counterexample into ``transcripts/counterexamples/`` and name it
@@ -30,10 +31,13 @@ check computes it; ``hull1620 reproduce`` and the tests fail if they differ.
 
 To add a document (a paper needs more steps, see :mod:`modern.papers`):
 
-1. Append its name to ``DOCUMENTS`` in :mod:`modern.claims.register`, and write its register
-   ``transcripts/statements/NAME.toml`` and its package of checks ``modern/claims/NAME/``.
-2. If it prints results, add a witness, an apparatus and ``results.toml`` to a folder of ``transcripts/``, a module with
+1. Append its name to ``DOCUMENTS`` in :mod:`modern.claims.register` and in ``modern/cli/shared/arguments.py``, and
+   write its register ``transcripts/statements/NAME.toml`` and its package of checks ``modern/claims/NAME/``.
+2. If it prints results, add a witness, an apparatus and ``results.toml`` to the folder ``transcripts/NAME_YEAR/``.  Add
+   the name of the folder to ``TEXTS`` in ``modern/cli/shared/arguments.py``, and describe it in
+   ``transcripts/README.md``.  Add a module with
    a function ``produced`` to ``modern/papers/``, and a :class:`~modern.claims.published.Paper` to ``PAPERS``.
 3. Describe the document and its text in ``fortran_src/SOURCES.toml``, which :mod:`modern.edition.sources` reads.
-4. Add a page ``docs/statements/NAME.md`` and name it in ``docs/statements.md``.
+4. Add a page ``docs/statements/NAME.md`` and name it in ``docs/statements.md``.  Add the authors to ``PERSONS`` in
+   ``modern/publication/book/build.py``.
 """

@@ -8,6 +8,8 @@ How to add a format in which hulls are written:
    (``off.py`` is a short example).
 2. Add NAME to ``MESHES`` below.  ``export --format``, its help and ``Hull.save`` then know the format; NAME is also
    the extension of the files.
+3. Formats in ``MESHES`` are also read, so follow the two recipes below, too.  For a format that is only written, add
+   NAME to ``HULLS`` instead, and a case to ``export_text`` in ``export.py``.
 
 How to add a format from which points are read:
 
@@ -15,16 +17,22 @@ How to add a format from which points are read:
    point in the file (for example its line).
 2. Add NAME to ``POINTS`` below.
 3. In ``points.py`` extend ``recognise`` so that it detects the beginning of such a file, and call the reader in
-   ``parse_input``.  For a binary format extend ``parse_bytes`` instead.  Every command that accepts points then accepts
-   the format.
+   ``parse_input``.  For a binary format extend ``_binary_kind`` and ``parse_bytes`` instead.  Every command that
+   accepts points then accepts the format.
 
-How to add a format from which faces are read (for ``hidden-line`` and its scenes): add it to points as above, write a
-function that returns a ``FileMesh`` (``tokens.py``), and extend ``parse_mesh`` in ``points.py``.
+How to add a format from which faces are read (for ``hidden-line``, ``appel-will`` and scenes):
+
+1. Add the format to those from which points are read, with a reader that returns a ``FileMesh`` (``tokens.py``).
+2. Add NAME to ``MESHES`` below, because ``surface_kind`` in ``points.py`` recognises only these formats.  A format in
+   ``MESHES`` is also offered for writing, so its module needs the function ``write`` of the first recipe.
+3. Call the reader in ``parse_mesh`` in ``points.py``.
+4. Name the format in the texts that list the formats of faces: the docstring and the message of ``parse_mesh``, the
+   message in ``modern/digital/volumes.py``, and the help in ``modern/cli/shared/point_arguments.py``.
 
 A format of voxels belongs to ``modern/digital/volumes.py`` (``nrrd.py`` there is an example).
 
 Tests: ``tests/modern/formats/test_export.py`` reads written files back with separate readers; ``test_points.py`` needs
-a row for each kind of valid file and for each way in which a file can be invalid; ``tests/modern/cli/
+a case for each kind of valid file and for each way in which a file can be invalid; ``tests/modern/cli/
 test_fuzz_readers.py`` damages files at random.  Documentation: ``docs/reference/files.md``.
 """
 

@@ -8,8 +8,9 @@ To add a built-in study:
 
 1. Write ``builtin/NAME.py`` with ``TITLE``, ``SAMPLES``, ``plan(samples, seed)`` and ``report(plan, store)``
    (:class:`modern.study.builtin.Study`).  The command line uses the name of the module, with hyphens for underscores.
-2. Test its report in ``tests/modern/study/test_study_reports.py`` on rows made for the test.
-3. Run it at full size and commit its report, tables, charts and manifest in ``docs/studies/NAME/``; describe the result
+2. Add the name to ``STUDIES`` in ``modern/cli/shared/arguments.py``, from which the shell completes it.
+3. Test its report in ``tests/modern/study/test_study_reports.py`` on rows made for the test.
+4. Run it at full size and commit its report, tables, charts and manifest in ``docs/studies/NAME/``; describe the result
    in ``docs/explanation/studies.md``, and new columns in ``modern/publication/columns.toml``.
    ``test_docs_studies.py`` compares the figures that this page quotes with the tables.
 

@@ -89,7 +89,7 @@ def appel_will(parser: ArgumentParser) -> None:
 
 def hidden_line(parser: ArgumentParser) -> None:
     scene = (
-        "a scene file .toml, a file of faces (OFF, OBJ, STL), a file of points whose hull is drawn, or one of the "
+        "a scene file .toml, a file of faces (OFF, OBJ, PLY, STL), a file of points whose hull is drawn, or one of the "
         "scenes cuboids, columns and house"
     )
     add(parser, {"scene SCENE": scene}, type=InputFile)
