@@ -20,8 +20,8 @@ from modern.geometry.vectors import cross, dot, minus
 _POINT_ON_A_SIDE: list[Point] = [(3, 0, 0), (4, 4, 0), (4, 2, 0), (4, 3, 0)]
 # A pyramid whose square base contains nine of the points.
 PYRAMID: list[Point] = [(x, y, 0) for x in (0, 1, 2) for y in (0, 1, 2)] + [(1, 1, 2)]
-# A set in space for which the procedure uses a point that is not a vertex of the last hull.
-_TWO_PLANES: list[Point] = [(2, 1, 1), (1, 1, 3), (0, 1, 3), (0, 0, 0), (0, 2, 3), (0, 0, 2), (0, 1, 2)]
+# A set in space for which the procedure uses two points that are not vertices of the last hull.
+_USED_POINTS: list[Point] = [(3, 0, 0), (3, 2, 1), (0, 2, 0), (0, 0, 0), (3, 0, 2), (3, 1, 1), (0, 1, 0)]
 
 
 @claim("thesis.81")
@@ -32,7 +32,7 @@ def used_boundary_point() -> Check:
     used = sorted(k for stage in hull.history for k in stage.added)
     facets = exact_hull(points).facets
     on_one = [points[k] for k in used if sum(not plane_value(facet.plane, points[k]) for facet in facets) == 1]
-    return exhibited(on_one, f"used points on only one line: {', '.join(map(str, on_one))}")
+    return exhibited(on_one, f"added points that are on only one line of the last hull: {', '.join(map(str, on_one))}")
 
 
 def _draw_lattice(random: Random, depth: int) -> tuple[Point, ...]:
@@ -56,7 +56,7 @@ LATTICE_SETS: dict[int, Generator[tuple[Point, ...]]] = {
 def end_of_the_procedure(dimension: int, cases: int = 2) -> Check:
     """Check that the points left at the end are boundary points, and that superfluous points and planes are removed."""
     outcomes, removed = [], [0, 0, 0]
-    for points in (*LATTICE_SETS[dimension].cases(cases), _POINT_ON_A_SIDE if dimension == 2 else _TWO_PLANES):
+    for points in (*LATTICE_SETS[dimension].cases(cases), _POINT_ON_A_SIDE if dimension == 2 else _USED_POINTS):
         hull, judge = convex_hull(points, history=True), exact_hull(points)
         used = {k for stage in hull.history for k in stage.added}
         remaining = {*range(len(points))} - used - {k for stage in hull.history for k in stage.struck}
@@ -65,7 +65,8 @@ def end_of_the_procedure(dimension: int, cases: int = 2) -> Check:
         removed[0] += len(remaining)
         removed[1] += len(used) - len(hull.vertices)
         removed[2] += len(hull.history[-1].equations) - len(hull.faces)
-    message = "{} points remain; {} used points and {} duplicate equations are removed".format(*removed)
+    message = "points that remain: {}, all on the boundary; points that are removed, because they are no vertices: {}; "
+    message = f"{message}duplicate equations that are removed: {{}}".format(*removed)
     return searched(LATTICE_SETS[dimension], cases, [*outcomes, *removed], message)
 
 
@@ -80,7 +81,8 @@ def duplicate_lines(cases: int = 3 * CASES) -> Check:
         for face in hull.faces:
             side = {k for k in used if _on_side(points, face.polygon, k)}
             outcomes += [sum({*ends} <= side for ends in last) >= 2] if len(side) > 2 else []
-    return searched(LATTICE_SETS[2], cases, outcomes, f"{len(outcomes)} sides have two or more equations")
+    message = f"{sum(outcomes)} of {len(outcomes)} sides with three or more added points have two or more equations"
+    return searched(LATTICE_SETS[2], cases, outcomes, message)
 
 
 def _on_side(points: Sequence[Point], ends: tuple[int, ...], k: int) -> bool:
@@ -105,12 +107,14 @@ def planes_at_vertex(cases: int = CASES) -> Check:
 
 @claim("thesis.231")
 def used_points_in_planes() -> Check:
-    """Count, for each used point that is not a vertex, the planes of the last hull that contain it: one or two."""
-    hull, judge = convex_hull(_TWO_PLANES, history=True), exact_hull(_TWO_PLANES)
+    """Count the planes of the last hull that contain the two used points that are not vertices: one and two."""
+    points = _USED_POINTS
+    hull, judge = convex_hull(points, history=True), exact_hull(points)
     used = {k for stage in hull.history for k in stage.added} - {*judge.vertices}
-    planes = {_TWO_PLANES[k]: sum(not plane_value(f.plane, _TWO_PLANES[k]) for f in judge.facets) for k in sorted(used)}
-    passed = bool(planes) and {*planes.values()} <= {1, 2} and {*hull.vertices} == {*judge.vertices}
-    return exhibited(passed, ", ".join(f"{point} is in {n} planes of the last hull" for point, n in planes.items()))
+    planes = {points[k]: sum(not plane_value(f.plane, points[k]) for f in judge.facets) for k in sorted(used)}
+    passed = {*planes.values()} == {1, 2} and {*hull.vertices} == {*judge.vertices}
+    message = ", ".join(f"{n} for {point}" for point, n in planes.items())
+    return exhibited(passed, f"number of planes of the last hull that contain an added point: {message}")
 
 
 @claim("thesis.230", full=400)
@@ -125,7 +129,8 @@ def boundary_points_on_edges(cases: int = 5) -> Check:
             between = any(_is_between(point, *(points[j] for j in edge)) for edge in edges)
             in_one_plane += len(on) == 1 and not between
             checks += [between and k not in judge.vertices] if len(on) == 2 else []
-    check = searched(LATTICE_SETS[3], cases, checks, f"{len(checks)} points in two planes agree")
+    message = f"{sum(checks)} of {len(checks)} points in exactly two planes lie between the ends of their common edge"
+    check = searched(LATTICE_SETS[3], cases, checks, message)
     return check.unless(in_one_plane, "a point in one plane only, which is between no two ends of an edge")
 
 

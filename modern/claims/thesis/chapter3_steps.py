@@ -7,11 +7,10 @@ from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from itertools import combinations, permutations
-from math import isqrt
 from operator import ne
 from typing import Any
 
-from modern.claims.evidence import Check, Generator, claim, exhausted, refuted, searched, slip
+from modern.claims.evidence import Check, Generator, claim, proved, refuted, searched, slip
 from modern.claims.hulls import convex_hull, exact_hull
 from modern.claims.sampled_sets import (
     BOTH,
@@ -138,18 +137,24 @@ def outside_convention() -> Check:
 
 
 def between_by_distances() -> Check:
-    """Check that sums of distances tell which of three collinear points lies between the others."""
-    checks = []
-    for mm, nn, i in permutations([(3 * t, 4 * t) for t in range(-4, 5)], 3):
+    """Prove that sums of distances tell which of three collinear points lies between the others.
+
+    Positions on the line are written as amounts of the two distances u and v between neighbouring points.
+    """
+    steps = []
+    for mm, nn, i in permutations(((0, 0), (1, 0), (1, 1))):
         # Page 27: D_1 is the distance between MM and NN, D_2 that between MM and P_i, D_3 that between NN and P_i.
-        d1, d2, d3 = _distance(nn, mm), _distance(mm, i), _distance(nn, i)
-        between = mm if d1 + d2 - d3 == 0 else nn if d1 + d3 - d2 == 0 else i
-        checks.append(between == sorted((mm, nn, i))[1])
-    return exhausted("triples of nine points (3t, 4t) of a line", checks, "sums of distances tell which is between")
-
-
-def _distance(d: tuple[int, int], e: tuple[int, int]) -> int:
-    return isqrt((e[0] - d[0]) ** 2 + (e[1] - d[1]) ** 2)
+        d1, d2, d3 = ([abs(p - q) for p, q in zip(*ends, strict=True)] for ends in ((mm, nn), (mm, i), (nn, i)))
+        first, second = ([a + b - c for a, b, c in zip(d1, *ds, strict=True)] for ds in ((d2, d3), (d3, d2)))
+        # Neither sum has amounts of both signs, so it is 0 for positive u and v only if both amounts are 0.
+        decided = all(min(amounts) * max(amounts) >= 0 for amounts in (first, second))
+        between = mm if not any(first) else nn if not any(second) else i
+        steps.append(decided and between == (1, 0))
+    argument = (
+        "In each of the six orders of the points, the two sums are 0, 2 u or 2 v. Here u and v are the distances of "
+    )
+    argument += "the middle point from the others, which are positive because the points are distinct"
+    return proved(argument, steps, "sums of distances tell which of three collinear points is between the others")
 
 
 @claim("thesis.87")

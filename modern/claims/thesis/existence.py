@@ -149,4 +149,8 @@ def theorem_4_2() -> Check:
 @claim("thesis.146", "thesis.148")
 def theorem_4_8() -> Check:
     argument = "The procedure makes H_5 of the nine points, and the last point is outside six of its planes"
-    return proved(argument, outside_several_planes(), "a point is outside six planes of H_5")
+    return proved(
+        argument,
+        outside_several_planes(),
+        "eight points are the vertices of H_5, and the ninth is outside six of its planes",
+    )
