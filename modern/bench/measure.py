@@ -3,24 +3,42 @@
 import importlib.metadata
 import os
 import platform
+import random
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from emulator.compiled.batch import punched
-from emulator.language.cards import deck_from_text
+from emulator.compiled.batch import punched, run_batch
+from emulator.language.cards import Deck, deck_from_text
 from emulator.machine.machine import Machine
+from emulator.machine.result import Options
 from modern.bench import native
 from modern.bench.agreement import Agreement, compare, data_sets
-from modern.bench.decks import LAYERS, OPTIONS, POINTS, PROGRAM, SEED, middle_texts, random_points
 from modern.bench.timing import Figure, side_by_side, timed, timed_once
 from modern.edition import programs
+from modern.formats import deck
 from modern.port import convex_hull
+
+# Program 3 reads the decks that program 1 punches for random points.  It runs with the layer that removes the known
+# faults.
+PROGRAM, LAYERS = "program3", ("corrected",)
+OPTIONS = Options(core=60_000)
+POINTS, LARGEST, SEED = 51, 99, 1963
+
+# A Python program that reads one deck from standard input and runs it on the compiled engine.
+_ONE_DECK = f"""
+import sys
+from emulator.compiled.batch import punched
+from emulator.machine.result import Options
+from modern.edition import programs
+program = programs.program({PROGRAM!r}, {LAYERS!r})
+sys.stdout.writelines(punched(program, [sys.stdin.read()], Options(core={OPTIONS.core})))
+"""
 
 # The compiled engine runs all decks, the plain engine (the interpreter) one in fifty, and the port one in five.
 PLAIN_SHARE, PORT_SHARE = 50, 5
@@ -28,6 +46,7 @@ PLAIN_SHARE, PORT_SHARE = 50, 5
 PLAIN, COMPILED, PORT, NATIVE = "plain engine", "compiled engine", "port, float64", "native program"
 COLD, WARM = "cold start: nothing compiled yet", "warm start: time to the first result"
 
+Point = tuple[int, int, int]
 # A function that receives one line for the user.
 Say = Callable[[str], None]
 
@@ -64,6 +83,29 @@ class Bench:
 
     def row(self, what: str) -> Row | None:
         return next((row for row in self.rows if row.figure.what == what), None)
+
+
+def random_points(count: int, seed: int) -> list[Point]:
+    """Return distinct points in random order, whose coordinates are uniformly distributed integers in [-99, 99]."""
+    source = random.Random(seed)
+    distinct: set[Point] = set()
+    while len(distinct) < count:
+        x, y, z = (source.randint(-LARGEST, LARGEST) for _ in range(3))
+        distinct.add((x, y, z))
+    points = sorted(distinct)
+    source.shuffle(points)
+    return points
+
+
+def data_deck(points: Sequence[Point]) -> Deck:
+    """Return the input deck of program 1 for these points: a card with N, then one card for each point."""
+    return deck.data_deck([list(map(str, point)) for point in points], "random deck")
+
+
+def middle_texts(sets: Sequence[Sequence[Point]]) -> list[str]:
+    """Return, as texts, the decks for program 3 that program 1 punches for these point sets."""
+    results = run_batch(programs.program("program1"), [data_deck(points) for points in sets])
+    return ["".join(card + "\n" for card in result.punched) for result in results]
 
 
 def measure(count: int, say: Say = lambda line: None) -> Bench:
@@ -110,7 +152,7 @@ def _starts(text: str, folder: Path, say: Say) -> tuple[Figure, ...]:
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(folder / "cache")}
 
     def process() -> None:
-        command = [sys.executable, "-m", "modern.bench.decks"]
+        command = [sys.executable, "-c", _ONE_DECK]
         subprocess.run(command, input=text, text=True, check=True, stdout=subprocess.DEVNULL, env=environment)
 
     say("starting processes")

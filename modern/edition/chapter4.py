@@ -64,8 +64,6 @@ class Theorem:
     """
 
     id: str
-    pages: str
-    title: str
     points_stated: int
     points: tuple[Point, ...]
     planes: tuple[Plane, ...]
@@ -100,8 +98,6 @@ def load_theorems() -> tuple[Theorem, ...]:
 def _theorem(raw: Mapping[str, Any]) -> Theorem:
     return Theorem(
         id=raw["id"],
-        pages=raw["pages"],
-        title=raw["title"],
         points_stated=raw["points_stated"],
         points=tuple(Point(p["name"], _vector(p["at"]), p["line"], p["printed"]) for p in raw["point"]),
         planes=tuple(

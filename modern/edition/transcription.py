@@ -47,6 +47,10 @@ _LINE_NUMBER = re.compile(r"\s*(\d+)[.:)|]?\s")
 _IDENTIFICATION = re.compile(r"(?=.{73,80}$)(.{72}).*\d\s*$")
 
 
+# The characters of each card and the numbers of the lines that contain them, by the index of the card in the edition.
+Texts = dict[int, tuple[str, tuple[int, ...]]]
+
+
 @dataclass(frozen=True, slots=True)
 class EditionCard:
     """A card of a built-in program: its number in the deck, its name, and its characters without blanks.
@@ -130,35 +134,35 @@ def _without_identification(lines: list[tuple[int, str]]) -> Iterator[list[tuple
         yield [(n, card[1] if card else line) for (n, line), card in zip(lines, cards, strict=True)]
 
 
-def align(text: str) -> dict[int, tuple[str, tuple[int, ...]]]:
+def align(text: str) -> Texts:
     """Return, for each card that a transcription contains, its characters without blanks and the numbers of its lines.
 
     The keys are the indices of the cards in the edition.
     """
     every = edition_cards()
     index = _Index(every)
-    best: tuple[float, list[tuple[int, str]], list[str], list[Span]] = (0.0, [], [], [])
+    best: tuple[float, list[int], list[str], list[Span]] = (0.0, [], [], [])
     for form in _forms(read_lines(text)):
-        numbered = [piece for line in form for piece in index.divided(*line)]
-        lines = [solid(line) for _, line in numbered]
+        pieces = [(number, solid(piece)) for line in form for number, piece in index.divided(*line)]
+        lines = [piece for _, piece in pieces]
         spans = [span for run in _span_runs(_best_path(lines, index)) if _is_clear(run, lines, index) for span in run]
         gain = sum(span.gain for span in spans)
-        best = max(best, (gain, numbered, lines, spans), key=lambda result: result[0])
-    _, numbered, lines, spans = best
+        best = max(best, (gain, [number for number, _ in pieces], lines, spans), key=lambda result: result[0])
+    _, numbers, lines, spans = best
     if not spans:
         return {}
-    texts: dict[int, tuple[str, tuple[int, ...]]] = {}
+    texts: Texts = {}
     used: set[int] = set()
     for span in sorted(spans, key=lambda s: -s.gain):
         used.update(span.lines)
         if any(card in texts for card in span.cards):
             continue
         joined = "".join(_unhyphenated(lines[n], n < span.lines[-1]) for n in span.lines)
-        numbers = tuple(numbered[n][0] for n in span.lines)
-        pieces = divide(joined, [every[card].solid for card in span.cards])
-        texts.update((card, (piece, numbers)) for card, piece in zip(span.cards, pieces, strict=True))
-    _place_strays(lines, numbered, used, texts, index)
-    _join_labels(lines, numbered, used, texts, every)
+        span_numbers = tuple(numbers[n] for n in span.lines)
+        divided = divide(joined, [every[card].solid for card in span.cards])
+        texts.update((card, (piece, span_numbers)) for card, piece in zip(span.cards, divided, strict=True))
+    _place_strays(lines, numbers, used, texts, index)
+    _join_labels(lines, numbers, used, texts, every)
     return texts
 
 
@@ -328,13 +332,7 @@ def _extended(ends: Mapping[int, _Node], span: Span) -> _Node:
     return _Node(span, score + span.gain, best)
 
 
-def _place_strays(
-    lines: Sequence[str],
-    numbered: Sequence[tuple[int, str]],
-    used: set[int],
-    texts: dict[int, tuple[str, tuple[int, ...]]],
-    index: _Index,
-) -> None:
+def _place_strays(lines: Sequence[str], numbers: Sequence[int], used: set[int], texts: Texts, index: _Index) -> None:
     """Assign each unused line to the only missing card that it resembles, if it has at least eight characters."""
     for n, line in enumerate(lines):
         if n in used or len(line) < 8:
@@ -342,19 +340,15 @@ def _place_strays(
         matches = [(text, gain) for text, gain in index.candidates(folded(line)) if gain >= len(line) * (1 - 2 * POOR)]
         missing = {card for text, _ in matches for card in index.owners[text] if card not in texts}
         if len(missing) == 1:
-            texts[missing.pop()] = line, (numbered[n][0],)
+            texts[missing.pop()] = line, (numbers[n],)
             used.add(n)
 
 
 def _join_labels(
-    lines: Sequence[str],
-    numbered: Sequence[tuple[int, str]],
-    used: set[int],
-    texts: dict[int, tuple[str, tuple[int, ...]]],
-    every: Sequence[EditionCard],
+    lines: Sequence[str], numbers: Sequence[int], used: set[int], texts: Texts, every: Sequence[EditionCard]
 ) -> None:
     """Put statement numbers before their statements if the OCR has put the numbers into a separate column."""
-    line_of = {number: n for n, (number, _) in enumerate(numbered)}
+    line_of = {number: n for n, number in enumerate(numbers)}
     lacking = [
         n for n in sorted(texts) if every[n].label and not folded(texts[n][0]).startswith(folded(every[n].label)[:2])
     ]
@@ -365,8 +359,8 @@ def _join_labels(
         near = [c for c in lacking if abs(line_of[texts[c][1][0]] - run[0]) < 60 + len(run)]
         labels = [folded(every[c].label) for c in near]
         for line, card in _common([folded(lines[n]) for n in unused], labels, likeness):
-            text, numbers = texts[near[card]]
-            texts[near[card]] = lines[unused[line]] + text, (numbered[unused[line]][0], *numbers)
+            text, text_numbers = texts[near[card]]
+            texts[near[card]] = lines[unused[line]] + text, (numbers[unused[line]], *text_numbers)
             used.add(unused[line])
             lacking.remove(near[card])
 

@@ -6,8 +6,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from emulator.language.cards import deck_from_lines
 from emulator.machine.machine import Machine
-from modern.bench.decks import POINTS, data_deck, random_points
-from modern.bench.measure import lines, measure
+from modern.bench.measure import POINTS, data_deck, lines, measure, random_points
 from modern.bench.suite import digital, hulls, papers
 from modern.bench.timing import RUNS, command, timed
 from modern.edition import programs

@@ -11,8 +11,21 @@ import pytest
 from emulator.compiled import runner
 from modern.bench import native
 from modern.bench.agreement import compare, plain
-from modern.bench.decks import LAYERS, PROGRAM
-from modern.bench.measure import COLD, COMPILED, NATIVE, PLAIN, PORT, WARM, Bench, Row, document, lines, measure
+from modern.bench.measure import (
+    COLD,
+    COMPILED,
+    LAYERS,
+    NATIVE,
+    PLAIN,
+    PORT,
+    PROGRAM,
+    WARM,
+    Bench,
+    Row,
+    document,
+    lines,
+    measure,
+)
 from modern.bench.timing import Figure, side_by_side
 from modern.cli.main import main
 from modern.edition import programs
