@@ -283,7 +283,7 @@ def edge_by_star_test(cases: int = 1) -> Check:
             is_corner = not holds_origin(projection.images)
             is_edge = is_corner and {*pair} == {projection.line[0], projection.line[-1]}
             checks.append(as_corrected(projection.images) == is_corner and is_edge == (pair in edges))
-    return searched(SETS[3], cases, checks, f"right for all {len(checks)} pairs of points of {cases} sets")
+    return searched(SETS[3], cases, checks, f"the test is right for all {len(checks)} pairs of points")
 
 
 @claim("appel-will.48", "yau-srihari.12", full=200)

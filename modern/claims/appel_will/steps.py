@@ -88,7 +88,7 @@ def change_of_sense(cases: int = 20) -> Check:
         is_outside = not on_side and sum(crossings) % 2 == 0
         return (is_outside or min(turns) >= 0 or max(turns) <= 0) and not (is_outside and holds_origin(images))
 
-    message = "a change of sense is seen only from outside the star polygon, and from there only outside its hull"
+    message = "a change of sense occurs only at points outside the star polygon, and these are outside its hull"
     return search(IMAGES, is_right, cases, message)
 
 

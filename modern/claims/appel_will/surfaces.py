@@ -142,7 +142,7 @@ def keeps_vertices(ring: tuple[Flat, ...], rule: Rule) -> bool:
 @claim("appel-will.75", rule="concave", full=2_000)
 def deletion_in_prisms(rule: Rule, cases: int = 5) -> Check:
     """Check that a rule deletes no vertex of the hull of a prism, at whose points at most three planes meet."""
-    return search(RINGS, lambda ring: keeps_vertices(ring, rule), cases, "no vertex of the hull is deleted")
+    return search(RINGS, lambda ring: keeps_vertices(ring, rule), cases, "no vertex of the hull of a prism is deleted")
 
 
 def _surfaces_at_lines(solid: Solid) -> Counter[frozenset[int]]:
