@@ -15,6 +15,7 @@ DECKS = 1_000
 
 
 def command_lines() -> Iterator[str]:
+    """Time commands in new processes.  Yield the results as lines."""
     yield timed("an empty Python process", lambda: subprocess.run([sys.executable, "-c", "pass"], check=True)).line()
     yield timed("hull1620 --help", command("--help"), "required: 0.15 s").line()
     yield timed("hull1620 reproduce 5, process start included", command("reproduce", "5"), "required: 0.5 s").line()
@@ -44,6 +45,7 @@ GROUPS: Mapping[str, Callable[[], Iterator[str]]] = {
 
 
 def main(names: Sequence[str]) -> int:
+    """Run the named groups of benchmarks, or all groups.  Return 2 if a name is unknown."""
     unknown = [name for name in names if name not in GROUPS]
     if unknown:
         print(f"bench: unknown group {unknown[0]!r}; expected some of {', '.join(GROUPS)}", file=sys.stderr)
