@@ -112,12 +112,11 @@ def as_tuple(members: Sequence[T]) -> tuple[T, ...]:
 class Face:
     """A supporting plane A x + B y + C z + D = 0, or a supporting line of a polygon, positive outside.
 
-    coefficients: A, B, C, D as the thesis computes them, as sums of products of coordinates of the defining points.
-        For a line the coefficient of the coordinate that the projection drops is 0 (thesis p. 16-17).
-    lowest: the same equation as integers without a common divisor.
-    defining: the points MM, NN, KK (for a line MM, NN) from which the equation was computed.
-    polygon: the vertices on the plane in cyclic order, counterclockwise seen from outside.  A line has two vertices.
-    on: all other input points that lie on the plane or line.
+    ``coefficients`` are A, B, C and D as the thesis computes them, as sums of products of coordinates of the defining
+    points. For a line, the coefficient of the coordinate that the projection drops is 0 (thesis p. 16-17).  ``lowest``
+    is the same equation in integers without a common divisor.  ``defining`` are the points MM, NN and KK (for a line MM
+    and NN) from which the equation was computed.  ``polygon`` are the vertices on the plane in cyclic order,
+    counterclockwise seen from outside; a line has two.  ``on`` are the other input points on the plane or line.
     """
 
     coefficients: Coefficients
