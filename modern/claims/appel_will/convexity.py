@@ -167,7 +167,8 @@ def start_of_jarvis(cases: int = CASES) -> Check:
     for sampled in sampled_sets(2, cases):
         below = (0, min(y for _, y, _ in sampled.points) - 1)
         checks.append(_smallest_angle(below, sampled.points) not in sampled.judge.inside)
-    check = searched(SETS[2], cases, checks, f"the first point of {len(checks)} sets is on the hull")
+    message = f"the point with the smallest angle about an origin below each of {len(checks)} sets is on the hull"
+    check = searched(SETS[2], cases, checks, message)
     origin, *points = counterexample_points("jarvis.csv")
     first = _smallest_angle(origin[:2], points)
     is_inside = first in exact_hull(points).inside and 0 in exact_hull([origin, *points]).vertices

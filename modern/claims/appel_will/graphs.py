@@ -83,8 +83,10 @@ def coplanar_loops(cases: int = CASES) -> Check:
 def outline(cases: int = CASES) -> Check:
     """Check that the edges that produce the outline of a hull form one closed curve, unless a face is seen edge-on."""
     # The normals of the faces have components of at most 200, so that no face is parallel to this direction.
-    outcomes = [is_closed_curve(_on_outline(s.points, s.judge, (1, 10**3, 10**6))) for s in sampled_sets(3, cases)]
-    check = searched(SETS[3], cases, outcomes, "the edges that produce the outline form one closed curve")
+    eye = (1, 10**3, 10**6)
+    outcomes = [is_closed_curve(_on_outline(s.points, s.judge, eye)) for s in sampled_sets(3, cases)]
+    message = f"in the direction {eye}, the edges that produce the outline form one closed curve"
+    check = searched(SETS[3], cases, outcomes, message)
     edges = _on_outline(CUBE, exact_hull(CUBE), (0, 0, 1))  # type: ignore[arg-type]
     case = f"a cube seen along an edge: {len(edges)} edges produce the outline and form no single closed curve"
     return check.unless(edges and not is_closed_curve(edges), case)
