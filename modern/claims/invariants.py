@@ -178,12 +178,17 @@ def table_4() -> Check:
     return satisfied("Table 4", outcomes)
 
 
+def counts_in_table_1(scene: str) -> list[int]:
+    """Return the printed numbers of polyhedra, vertices, faces and points of figures of a scene of Table 1."""
+    return numbers_in(corrected_print("nakamae-nishita")[f"table1-{scene}"][0].split(")")[1])
+
+
 @claim("nakamae-nishita.53", scene="a")
 @claim("nakamae-nishita.54", scene="b")
 @claim("nakamae-nishita.55", scene="c")
 def scene_of_solids(scene: str) -> Check:
     """Check that n convex solids can have the printed vertices V and faces F: V <= 2 F - 4 n and F <= 2 V - 4 n."""
-    solids, corners, faces, _ = numbers_in(corrected_print("nakamae-nishita")[f"table1-{scene}"][0].split(")")[1])
+    solids, corners, faces, _ = counts_in_table_1(scene)
     possible = corners <= 2 * faces - 4 * solids and faces <= 2 * corners - 4 * solids and corners >= 4 * solids
     return satisfied(f"Table 1 ({scene})", [("solids", possible)])
 

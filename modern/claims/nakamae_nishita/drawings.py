@@ -13,7 +13,7 @@ from modern.claims.nakamae_nishita.tables import overlap
 from modern.claims.sampled_sets import CASES, SETS, Point, sampled_sets
 from modern.drawing.visible import CONTOUR, INNER
 from modern.papers.nakamae_nishita.hidden import Drawing, Piece, draw
-from modern.papers.nakamae_nishita.nearness import BY_CROSSING
+from modern.papers.nakamae_nishita.nearness import BY_CROSSING, BY_FACE
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron, checked
 from modern.papers.nakamae_nishita.projection import parallel
 from modern.papers.nakamae_nishita.shapes import cuboid, moved, placed
@@ -38,6 +38,31 @@ def _apart(boxes: tuple[Box, ...]) -> bool:
 
 
 SCENES: Generator[tuple[Box, ...]] = Generator("scenes of three boxes in a cube of 15", 71, _draw_boxes, _apart)
+
+
+def _draw_nested(random: Random) -> tuple[Box, ...]:
+    size, extent = (tuple(random.randint(*limits) for _ in range(3)) for limits in ((6, 9), (1, 2)))
+    # The smaller box is moved from the middle of the larger one roughly towards the eye.
+    low = tuple(s // 2 + way + random.randint(-2, 1) for s, way in zip(size, (8, -16, 12), strict=True))
+    small = low, tuple(a + b for a, b in zip(low, extent, strict=True))
+    return ((0, 0, 0), size), small  # type: ignore[return-value]
+
+
+def _is_nested(boxes: tuple[Box, ...]) -> bool:
+    """Return True if the second box is nearer, has a contour inside that of the first, and hides a part of an edge."""
+    if len(boxes) != len("vw") or not _apart(boxes):
+        return False
+    drawing = _drawn(boxes)
+    is_enclosed = [(relation.by, relation.nearer) for relation in drawing.relations] == [(BY_FACE, -1)]
+    return is_enclosed and any(p.last - p.first < 1 for p in drawing.pieces)
+
+
+NESTED: Generator[tuple[Box, ...]] = Generator(
+    "boxes with sides from 6 to 9, an edge of which is partly behind a smaller box",
+    61,
+    _draw_nested,
+    _is_nested,
+)
 
 
 def _polyhedra(boxes: tuple[Box, ...], thing: str = "") -> list[Polyhedron]:
@@ -83,13 +108,13 @@ def _agrees(boxes: tuple[Box, ...]) -> bool:
     return all(piece.visible != any(_behind(at, box) for box in boxes) for piece, at in samples(_drawn(boxes)))
 
 
-def pieces_against_rays(cases: int = 3) -> Check:
+def pieces_against_rays(cases: int = 3, scenes: Generator[tuple[Box, ...]] = SCENES) -> Check:
     """Check that a piece of an edge is visible if and only if no box hides its midpoint and points next to its ends.
 
     All edges of the boxes are divided into pieces. Those of edges between two back faces are never visible.
     """
     message = "boxes hide none of three points of each visible piece of an edge, and all three of each other piece"
-    return search(SCENES, _agrees, cases, message)
+    return search(scenes, _agrees, cases, message)
 
 
 # Directions parallel to no face of a sampled hull: the components of the faces' normals are integers up to 200.

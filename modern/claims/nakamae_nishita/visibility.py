@@ -4,12 +4,14 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from itertools import combinations, pairwise, permutations, product
+from operator import eq
 from random import Random
 
 from modern.claims import algebra
-from modern.claims.evidence import Check, Generator, claim, exhausted, exhibited, proved, refuted, searched, slip
+from modern.claims.evidence import Check, Generator, claim, exhibited, proved, refuted, searched, slip
 from modern.claims.hulls import exact_hull
-from modern.claims.nakamae_nishita.drawings import order_on_lines_of_sight, pieces_against_rays, point_of, samples
+from modern.claims.invariants import counts_in_table_1
+from modern.claims.nakamae_nishita.drawings import NESTED, order_on_lines_of_sight, pieces_against_rays, samples
 from modern.claims.nakamae_nishita.tables import (
     POLYGONS,
     SQUARE,
@@ -32,11 +34,6 @@ from modern.papers.nakamae_nishita.polyhedron import Polyhedron, checked
 from modern.papers.nakamae_nishita.projection import parallel
 from modern.papers.nakamae_nishita.scenes import parse
 from modern.papers.nakamae_nishita.shapes import cuboid, moved, placed
-
-
-@cache
-def _cuboid(way: tuple[int, int, int] = (3, -5, 2)) -> Drawing:
-    return draw(lambda: [cuboid("box", Fraction(2), Fraction(3), Fraction(4))], parallel(way))
 
 
 def _draw_view(random: Random) -> tuple[tuple[Point, ...], Point]:
@@ -80,17 +77,6 @@ def _is_classified(points: tuple[Point, ...], way: Point) -> bool:
     right = all((kinds[e] == INNER, kinds[e] == CONTOUR) == (n == 2, n == 1) for e, n in counts.items())
     ring = {frozenset(ends) for ends in pairwise((*solid.contour, solid.contour[0]))}
     return right and len(kinds) == len(judge.edges()) and ring == {e for e, kind in kinds.items() if kind == CONTOUR}
-
-
-@claim("nakamae-nishita.10", full=400)
-def face_seen_edge_on(cases: int = 4) -> Check:
-    """Check that by the printed definition a cuboid seen along an axis has no contour edge."""
-    (along,) = _cuboid((0, 0, 1)).solids
-    pairs_ = combinations(zip(along.polyhedron.faces, along.signs, strict=True), 2)
-    as_printed = sum(first * second == -1 and len({*a} & {*b}) == 2 for (a, first), (b, second) in pairs_)
-    contour = sum(edge.kind == CONTOUR for edge in along.edges)
-    case = f"a cuboid seen along an axis: {contour} contour edges, and {as_printed} by the printed definition"
-    return faces_and_edges(cases).unless(along.signs.count(0) == 4 == contour and not as_printed, case)
 
 
 @claim("nakamae-nishita.16", full=600)
@@ -140,7 +126,7 @@ _ENDS: tuple[Place, ...] = tuple((x, y) for x in (-3, 1, 2, 8) for y in (-2, 1, 
 @claim("nakamae-nishita.45", full=100)
 @claim("nakamae-nishita.59", index=-1, full=100)
 def indices(index: int = 0, cases: int = 3) -> Check:
-    """Check that the program gives intersections the indices of formula (6), if no corner and no end is on the other.
+    """Check that the program gives intersections the indices of formula (6), if no corner is on the segment.
 
     index: with -1, check only that intersections with the index -1 are alone on their segment.
     """
@@ -149,7 +135,7 @@ def indices(index: int = 0, cases: int = 3) -> Check:
     for v in (SQUARE, *POLYGONS.cases(cases)):
         sides = [(p, v[(k + 1) % len(v)]) for k, p in enumerate(v)]
         for a, b in permutations(_ENDS, 2):
-            if any(between(a, b, p) or between(p, q, a) or between(p, q, b) for p, q in sides):
+            if any(between(a, b, p) for p in v):
                 continue
             met = []
             for k, ((xi, yi), (xj, yj)) in enumerate(sides):
@@ -164,7 +150,7 @@ def indices(index: int = 0, cases: int = 3) -> Check:
             alone |= {len(met) for _, index in by_six if index == -1}
             ways.add(tuple(index for _, index in passage.marks))
     expected = {(), (1,), (-1,), (2, -2)}
-    message = f"{len(checks)} segments have the index 1 if they enter, -1 if they leave, and 2 and -2 if they do both"
+    message = f"of {len(checks)} segments, some enter with the index 1, leave with -1, or do both with 2 and -2"
     every_way = ways == expected and (not index or alone == {1})
     check = searched(_CONTOURS, cases, [*checks, every_way], message)
     # The diagonal of the square.
@@ -256,26 +242,21 @@ def edges_wholly_behind() -> Check:
     return refuted(scenes[0].relations[0].by == BY_CROSSING and wrong & inner, message)
 
 
-@claim("nakamae-nishita.66")
-def overlap_by_neighbours() -> Check:
-    """Check that adjacent columns of the table PL tell whether two collinear sides overlap; zeros alone do not."""
-    zeros, beside = [], []
-    for x, y, width in product(range(-5, 8), (-4, 0, 4), (2, 3)):
-        rectangle = ((x, y), (x, y + 4), (x + width, y + 4), (x + width, y))
-        pl, _ = tables_of(SQUARE, rectangle)
-        for i, j in product(range(4), repeat=2):
-            row, next_row = pl[j], pl[(j + 1) % 4]
+@claim("nakamae-nishita.66", full=25)
+def overlap_by_neighbours(cases: int = CASES) -> Check:
+    """Check that adjacent columns of the table PL tell whether two collinear sides overlap."""
+    overlaps, beside = [], []
+    for v, w in pairs(cases):
+        pl, _ = tables_of(v, w)
+        for i, j in product(range(len(v)), range(len(w))):
+            row, next_row = pl[j], pl[(j + 1) % len(w)]
             if row[i] == next_row[i] == 0:
-                axis = 0 if SQUARE[i][1] == SQUARE[(i + 1) % 4][1] else 1
-                spans = [sorted((ring[k][axis], ring[(k + 1) % 4][axis])) for ring, k in ((SQUARE, i), (rectangle, j))]
-                overlap = max(first for first, _ in spans) < min(last for _, last in spans)
-                zeros.append(overlap)
-                apart = any(row[k] <= 0 >= next_row[k] for k in ((i - 1) % 4, (i + 1) % 4))
-                beside.append(overlap != apart)
-    message = f"the adjacent columns tell which of {len(zeros)} pairs of collinear sides overlap"
-    return exhausted("78 rectangles and a square", beside, message).unless(
-        False in zeros, f"zeros alone, which {zeros.count(False)} pairs have that do not overlap"
-    )
+                axis = 0 if v[i][0] != v[(i + 1) % len(v)][0] else 1
+                spans = [sorted((ring[k][axis], ring[(k + 1) % len(ring)][axis])) for ring, k in ((v, i), (w, j))]
+                overlaps.append(max(first for first, _ in spans) < min(last for _, last in spans))
+                beside.append(all(row[k] == 1 or next_row[k] == 1 for k in (i - 1, (i + 1) % len(v))))
+    message = f"adjacent columns tell that {sum(overlaps)} of {len(overlaps)} pairs of collinear sides overlap"
+    return searched(POLYGONS, 2 * cases, [*map(eq, overlaps, beside), 0 < sum(overlaps) < len(overlaps)], message)
 
 
 @claim("nakamae-nishita.64", full=25)
@@ -306,12 +287,11 @@ def table_by_formula_4() -> Check:
     return slip(by_4 != {-1}, goes_in, "the tables of section 3.2, by the sign of (1)", message)
 
 
-@claim("nakamae-nishita.61")
-def nearer_contour_inside() -> Check:
-    """Check a frustum seen from above, with a box in front of its top.
+@claim("nakamae-nishita.61", full=300)
+def nearer_contour_inside(cases: int = 3) -> Check:
+    """Check boxes behind a smaller box, and a frustum seen from above with a box in front of its top.
 
-    The contour of the box divides the four sloping edges of the frustum, whose upper parts are hidden. The four sides
-    of its top are hidden wholly, without meeting that contour.
+    The contour of that box hides the four sides of the frustum's top, which do not meet the contour.
     """
     corners = [(x, y, z) for z, low, high in ((0, 0, 8), (2, 3, 5)) for x, y in _ring(low, high)]
     walls = [(k, k + 4, (k + 1) % 4 + 4, (k + 1) % 4) for k in range(4)]
@@ -322,39 +302,25 @@ def nearer_contour_inside() -> Check:
     )
     box = placed(cuboid("box", *map(Fraction, (4, 4, 1))), moved((Fraction(2), Fraction(2), Fraction(4))), "box")
     drawing = draw([checked(frustum), box], parallel((0, 0, 1)), hidden=True)
-    passages = [
-        passage for edge_passages in drawing.passages if edge_passages.solid == 0 for _, passage in edge_passages.behind
-    ]
-    whole, met = passages.count(ENCLOSED), sum(bool(passage.marks) for passage in passages)
+    whole = sum(p == ENCLOSED for edge in drawing.passages if edge.solid == 0 for _, p in edge.behind)
     # A point of the frustum is hidden if its image is inside the square contour of the box, from 2 to 6 in x and y.
     points = [(piece.visible, at) for piece, at in samples(drawing) if piece.solid == 0]
-    correct = [visible != (max(abs(x - 4), abs(y - 4)) < 2) for visible, (x, y, _) in points]
-    divided = [piece for piece in drawing.pieces if piece.solid == 0 and piece.last - piece.first < 1]
-    marks = [point_of(drawing, piece, end) for piece in divided for end in (piece.first, piece.last) if 0 < end < 1]
-    correct += [max(abs(x - 4), abs(y - 4)) == 2 for x, y, _ in marks]
-    ends = sorted((*sorted((piece.start, piece.end)), piece.visible) for piece in divided)
-    correct.append(ends == [(k, k + 4, visible) for k in range(4) for visible in (False, True)])
-    message = f"{met} inner edges of the frustum are divided where they meet the contour of the box"
-    check = exhibited(met == 4 and all(correct), message)
-    without = whole and _hidden(drawing, CONTOUR) == 0
-    return check.unless(without, f"{whole} other inner edges, which are hidden without meeting it")
+    correct = all(visible != (max(abs(x - 4), abs(y - 4)) < 2) for visible, (x, y, _) in points)
+    case = f"the top of a frustum behind a box: its {whole} sides are hidden without meeting the contour of the box"
+    return pieces_against_rays(cases, NESTED).unless(correct and whole, case)
 
 
 def _ring(low: int, high: int) -> tuple[tuple[int, int], ...]:
     return (low, low), (high, low), (high, high), (low, high)
 
 
-# The numbers of polyhedra, vertices and faces in Table 1.
-COUNTS = {"a": (11, 116, 80), "c": (60, 480, 360), "d": (30, 216, 158)}
-
-
 @claim("nakamae-nishita.56")
 def counts_of_table_1d() -> Check:
     """Check that the counts of Table 1 (d) require plates: a solid with F faces has at most 2 F - 4 vertices."""
-    most = {name: 2 * faces - 4 * parts for name, (parts, _, faces) in COUNTS.items()}
+    parts, vertices, faces, _ = counts_in_table_1("d")
     # 25 prisms, 23 on quadrangles and 2 on triangles, and five plates with four corners and two faces.
     bases = [4] * 23 + [3] * 2
     plates = (len(bases) + 5, 2 * sum(bases) + 5 * 4, sum(bases) + 2 * len(bases) + 5 * 2)
-    check = exhibited(plates == COUNTS["d"], "25 prisms and five plates have the printed counts")
-    solids = all(most[name] == COUNTS[name][1] for name in "ac") and most["d"] < COUNTS["d"][1]
-    return check.unless(solids, f"solids only, which have at most {most['d']} vertices with 158 faces")
+    check = exhibited(plates == (parts, vertices, faces), "25 prisms and five plates have the printed counts")
+    most = 2 * faces - 4 * parts
+    return check.unless(most < vertices, f"solids only, which have at most {most} vertices with {faces} faces")

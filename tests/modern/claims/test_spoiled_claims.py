@@ -20,7 +20,6 @@ from modern.claims.register import decisions
 from modern.claims.sampled_sets import SampledSet, sampled_sets
 from modern.geometry.hull import Hull
 from modern.papers.nakamae_nishita.contours import Tables
-from modern.papers.nakamae_nishita.hidden import Drawing
 from tests.modern.claims.spoilers import is_noticed, verdict
 from tests.support.caches import cleared
 
@@ -46,12 +45,6 @@ def _listing_with(old: str, new: str) -> Callable[[Any], object]:
     return lambda original: SimpleNamespace(deck=partial(deck, original), program=original.program)
 
 
-def _divided_visible(drawing: Drawing) -> Drawing:
-    """Make the pieces of all divided edges visible."""
-    pieces = (replace(p, visible=p.visible or p.last - p.first < 1) for p in drawing.pieces)
-    return replace(drawing, pieces=tuple(pieces))
-
-
 def _without_code(original: Any) -> object:
     return SimpleNamespace(deck=original.deck, program=lambda _: SimpleNamespace(code=(), statements=()))
 
@@ -71,7 +64,6 @@ BY_HAND: dict[str, tuple[str, Callable[[Any], object]]] = {
         lambda original: lambda paper: [replace(result, printed=result.corrected) for result in original(paper)],
     ),
     "kovalevsky-schulz.96": ("_is_symmetric", lambda _: lambda ring: True),
-    "nakamae-nishita.61": ("draw", lambda original: lambda *made, **named: _divided_visible(original(*made, **named))),
     "thesis.3": ("programs", _without_code),
     "thesis.65": ("programs", _listing_with("NETC", "NTC")),
     "thesis.129": ("_c_0", lambda original: lambda *points: original(*points) + 1),
