@@ -209,7 +209,10 @@ def first_card() -> Check:
         and {len(card) for card in cards[1:]} == {3 * 14}
         and not any(card.text[52:].strip() for example in EXAMPLES for card in input_deck(example).cards)
     )
-    return exhibited(passed, f"a deck of 8 points has {len(cards)} cards, and its first card is {cards[0]!r}")
+    message = (
+        f"a deck of 8 points has {len(cards)} cards; its first card is {cards[0]!r}, and the others are blank after "
+    )
+    return exhibited(passed, f"{message}column 42")
 
 
 # Six points for which program 3 eliminates the last two planes of its table.
