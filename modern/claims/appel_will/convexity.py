@@ -41,14 +41,6 @@ def corrected_method(cases: int = CASES) -> Check:
     return check.unless(not any(fault.holds for fault in wrong), case)
 
 
-@claim("yau-srihari.113")
-def pairs_of_points() -> Check:
-    """Check that the method tests each pair of points once if no three points are collinear."""
-    curve = [(t, t * t, t**3) for t in range(12)]
-    outcomes = [appel_will(curve[:n]).projections == n * (n - 1) // 2 for n in range(4, 13)]
-    return exhibited(all(outcomes), "the first n points of the curve (t, t^2, t^3) have n (n - 1) / 2 tested pairs")
-
-
 @claim("appel-will.67", "appel-will.68", "appel-will.98", full=300)
 @claim("appel-will.36", "appel-will.116", "appel-will.120", "yau-srihari.112", full=300)
 def method_against_judge(cases: int = CASES, method: Method = CORRECTED) -> Check:

@@ -9,7 +9,7 @@ from random import Random
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.claims.evidence import Check, Generator, claim, exhibited, refuted, search, searched, slip
+from modern.claims.evidence import Check, Generator, claim, exhausted, exhibited, refuted, search, searched, slip
 from modern.claims.hulls import exact_hull, octree_hull
 from modern.claims.sampled_sets import (
     CASES,
@@ -23,9 +23,9 @@ from modern.claims.sampled_sets import (
 from modern.digital.solids import listed
 from modern.geometry.vectors import dot
 from modern.papers.yau_srihari import OctreeHull, Printed
-from modern.papers.yau_srihari.convexity import is_digitally_convex, is_simple
+from modern.papers.yau_srihari.convexity import convex_deficiency, is_digitally_convex, is_simple
 from modern.papers.yau_srihari.hull import components
-from modern.papers.yau_srihari.octree import count
+from modern.papers.yau_srihari.octree import count, voxels_of
 from modern.papers.yau_srihari.quadtree import Leaf, graph_side, no_columns, written
 from modern.papers.yau_srihari.search import normal_of
 
@@ -106,7 +106,8 @@ def minimum_not_unique() -> Check:
     """Check that two voxels with a common edge are in two smallest digitally convex solids of three voxels."""
     both: list[Point] = [(0, 0, 0), (1, 1, 0)]
     least = [is_digitally_convex(array_of([*both, third])) for third in ((1, 0, 0), (0, 1, 0))]
-    return exhibited(all(least) and not is_simple(array_of(both)), "either of two voxels makes a convex solid of three")
+    message = "two voxels with a common edge are not convex, but either of two others makes them so"
+    return exhibited(all(least) and not is_simple(array_of(both)), message)
 
 
 @claim("yau-srihari.48", "yau-srihari.53", "yau-srihari.54", "yau-srihari.59", "yau-srihari.103", full=500)
@@ -123,15 +124,14 @@ def digital_hull_by_envelopes(cases: int = 3) -> Check:
     return envelopes_against_judge(cases).unless(not disconnected.holds, f"a path of stairs: {disconnected.message}")
 
 
-@claim("yau-srihari.120", "yau-srihari.70", name="angle", full=400)
-@claim("yau-srihari.51", "yau-srihari.52", name="start", full=400)
-@claim("yau-srihari.68", name="bound", full=400)
-@claim("yau-srihari.125", "yau-srihari.106", name="marks", full=400)
-def corrected_step(name: str, cases: int = 2) -> Check:
-    """Check that the corrected algorithm gives the digital points of the hull, whereas a step as printed does not."""
-    as_printed = algorithm_as_printed(name)
-    check = envelopes_against_judge(cases)
-    return check.unless(not as_printed.holds, f"the step as printed: {as_printed.message}")
+@claim("yau-srihari.120", "yau-srihari.70", names="angle", full=400)
+@claim("yau-srihari.68", names="angle bound", full=400)
+@claim("yau-srihari.125", "yau-srihari.106", names="marks", full=400)
+def corrected_step(names: str, cases: int = 2) -> Check:
+    """Check that the corrected algorithm gives the digital points of the hull, but no step as printed alone does."""
+    as_printed = {name: algorithm_as_printed(name) for name in names.split()}
+    case = "; ".join(f"{name} as printed: {step.message}" for name, step in as_printed.items())
+    return envelopes_against_judge(cases).unless(not any(step.holds for step in as_printed.values()), case)
 
 
 @claim("yau-srihari.36")
@@ -145,8 +145,19 @@ def disconnected_hull() -> Check:
     alone = middle in inside and not any(sum(abs(a - b) for a, b in zip(p, middle, strict=True)) == 1 for p in inside)
     whole = tuple(2 * m for m in middle) == (x + u, y + v, z + w)
     wrong = hull.components == 1 and whole and alone and not is_simple(hull.filled)
-    message = f"the hull of {len(stairs)} connected voxels has {len(inside)}; {middle} has no neighbour in it"
+    message = f"the hull of {len(stairs)} connected voxels has {len(inside)} digital points, none next to {middle}"
     return refuted(wrong, message)
+
+
+@claim("yau-srihari.5")
+def solid_from_deficiency(cases: int = 3) -> Check:
+    """Check that a solid is its digital hull without its convex deficiency."""
+
+    def is_described(voxels: tuple[Point, ...]) -> object:
+        solid = array_of(voxels)
+        return np.array_equal(hull_of(voxels).filled & ~convex_deficiency(solid), solid)
+
+    return search(SOLIDS, is_described, cases, "each solid is its digital hull without the convex deficiency")
 
 
 @claim("yau-srihari.35")
@@ -165,7 +176,7 @@ def smallest_convex_solid() -> Check:
     voxels = (1, 0, 1), (1, 1, 1)
     completions = [p for p in voxels if p not in path and is_digitally_convex(array_of([*path, p]))]
     return exhibited(
-        passed, f"the hull of {hull.solid_voxels} connected voxels has {hull.voxels} and is convex"
+        passed, f"the hull of {hull.solid_voxels} connected voxels has {hull.voxels} digital points and is convex"
     ).unless(
         path_fails and len(completions) > 1,
         f"a path of six voxels that {len(completions)} different voxels make convex",
@@ -194,7 +205,9 @@ def supporting_planes(cases: int = 5) -> Check:
             min(dot(n, p) for p in floor) == min(dot(n, v) for v in vertices) for n in NORMALS
         )
 
-    message = f"{len(NORMALS)} supporting planes of each solid contain an extreme point, which is a point of the floor"
+    message = (
+        f"{len(NORMALS)} planes below or beside each floor that support it contain an extreme point, which is in it"
+    )
     return search(SOLIDS, touch, cases, message)
 
 
@@ -232,23 +245,21 @@ def first_and_last_heights(cases: int = 5) -> Check:
 
 @claim("yau-srihari.100", full=400)
 def triangles_of_a_hull(cases: int = CASES) -> Check:
-    """Check that three points are a face if and only if their plane supports, unless four points are coplanar."""
+    """Check that three points are a face if and only if their plane supports, unless it contains a fourth point."""
     outcomes, sets = [], 0
     for sampled in sampled_sets(3, 4 * cases):
         points = sampled.points[:6]
         planes = {three: plane_through(*(points[k] for k in three)) for three in combinations(range(6), 3)}
-        values = {three: [plane_value(p, point) for point in points] for three, p in planes.items()}
-        # If no four points are coplanar, a plane through three points contains no other point.
-        if all(row.count(0) == 3 for row in values.values()):
+        values = {three: [plane_value(p, point) for point in points] for three, p in planes.items() if any(p)}
+        supporting = [three for three, row in values.items() if min(row) >= 0 or max(row) <= 0]
+        if all(values[three].count(0) == 3 for three in supporting):
             sets += 1
             faces = {frozenset(facet.polygon) for facet in exact_hull(points).facets}
-            outcomes += [
-                (frozenset(three) in faces) == (min(row) >= 0 or max(row) <= 0) for three, row in values.items()
-            ]
-    generator = replace(SETS[3], name=f"the first six points of {SETS[3].name}, if no four of them are coplanar")
+            outcomes += [(frozenset(three) in faces) == (three in supporting) for three in values]
+    generator = replace(SETS[3], name=f"the first six points of {SETS[3].name}, without four in a supporting plane")
     check = searched(generator, sets, outcomes, f"true for {len(outcomes)} triangles")
     as_printed = algorithm_as_printed("triangles")
-    return check.unless(not as_printed.holds, f"a solid with four coplanar points: {as_printed.message}")
+    return check.unless(not as_printed.holds, f"a solid with four points in a face: {as_printed.message}")
 
 
 @claim("yau-srihari.99")
@@ -267,12 +278,14 @@ def another_vertex() -> Check:
 
 @claim("yau-srihari.90")
 def epigraph_at_inner_nodes() -> Check:
-    """Check that the printed rule makes a node of the octree full although part of it is below the envelope."""
-    tops = {(0, 0): 0, (0, 1): 1, (1, 0): 1, (1, 1): 1}
-    tree = written(no_columns(2), {place: Leaf(top) for place, top in tops.items()})
-    voxels_as_printed = 8 if tree.low == 0 else 0
-    epigraph = count(graph_side(tree, above=True))
-    columns = sum(z >= top for top in tops.values() for z in (0, 1))
-    check = exhibited(epigraph == columns == 5, "at leaves of one column the epigraph is full from the height upward")
-    case = f"the root as printed, which has {voxels_as_printed} voxels although the epigraph has {epigraph}"
-    return check.unless(voxels_as_printed == 8 > epigraph and tree.high == 1, case)
+    """Check that a column of voxels is full from its height upward, but not a larger node by the printed rule."""
+    outcomes, too_full = [], []
+    for tops in product(range(3), repeat=4):
+        tree = written(no_columns(2), {divmod(k, 2): Leaf(top) for k, top in enumerate(tops)})
+        epigraph = graph_side(tree, above=True)
+        full = voxels_of(epigraph, (2, 2, 2))
+        outcomes.append(all(full[at] == (at[2] >= tree.values[at[:2]]) for at in product(range(2), repeat=3)))
+        if tree.low == 0 and count(epigraph) < 8:
+            too_full.append(f"the root for the heights {tops}, which would have 8 voxels instead of {count(epigraph)}")
+    check = exhausted("heights from 0 to 2 of 2 by 2 columns", outcomes, "columns are full from their heights upward")
+    return check.unless(too_full, too_full[0])

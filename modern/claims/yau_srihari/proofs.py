@@ -144,6 +144,17 @@ def normal_of_starting_face() -> Proof:
     )
 
 
+def number_of_pairs() -> Proof:
+    """Prove that n points have n (n - 1) / 2 pairs."""
+    (n,) = variables("n")
+    return Proof(
+        "n points have n (n - 1) / 2 pairs",
+        "One point has no pair. A new point has n pairs with the n points before it, and twice n plus n (n - 1) is "
+        "(n + 1) n.",
+        (Step("n new pairs", {}, zero(2 * n + n * (n - 1) - (n + 1) * n)),),
+    )
+
+
 @claim("yau-srihari.61")
 def angle_of_theorem_2() -> Check:
     """Check that theorem 2 is true of the interior dihedral angle, but not as printed, of the outward normals."""
@@ -156,6 +167,7 @@ def angle_of_theorem_2() -> Check:
 @claim("yau-srihari.47", "yau-srihari.96", "yau-srihari.117", "yau-srihari.118", proof=convex_epigraph)
 @claim("yau-srihari.48", proof=theorem_1)
 @claim("yau-srihari.84", proof=normal_of_starting_face)
+@claim("yau-srihari.113", proof=number_of_pairs)
 @claim("yau-srihari.101", proof=theorem_2)
 def proof_of_theorem(proof: Callable[[], Proof]) -> Check:
     return proof().check()

@@ -1,19 +1,20 @@
 """Checks of Yau and Srihari on steps: edges of the queue, rows and columns, and the angles of the search."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from itertools import product
 from random import Random
 
 import numpy as np
 
-from modern.claims.evidence import Check, Generator, claim, exhibited, refuted, searched
+from modern.claims.evidence import Check, Generator, claim, refuted, searched
 from modern.claims.hulls import exact_hull, octree_hull
 from modern.claims.sampled_sets import Point, counterexample_points
-from modern.claims.yau_srihari.envelopes import SOLIDS, array_of, hull_of
+from modern.claims.yau_srihari.envelopes import SOLIDS, array_of, envelopes_against_judge, hull_of
 from modern.digital.solids import VERTEX, ball
-from modern.papers.yau_srihari import Printed
+from modern.papers.yau_srihari import OctreeHull, Printed
 from modern.papers.yau_srihari.convexity import is_simple
-from modern.papers.yau_srihari.envelope import envelope, reduced_tree
+from modern.papers.yau_srihari.envelope import reduced_tree
+from modern.papers.yau_srihari.printed import NAMES
 from modern.papers.yau_srihari.quadtree import Leaf, Place, heights, no_columns, written
 from modern.papers.yau_srihari.search import Search
 
@@ -49,6 +50,28 @@ def queued_edges_reversed(cases: int = 3) -> Check:
     return check.unless(not same, "a comparison of directions, as each edge is found again in reverse")
 
 
+@claim("yau-srihari.51", full=400, of_ceiling=False)
+@claim("yau-srihari.52", full=400, of_ceiling=True)
+def envelope_algorithm(of_ceiling: bool, cases: int = 2) -> Check:
+    """Check that the corrected algorithm gives the envelopes, but not if one of its corrections is left out.
+
+    Truncation gives right heights of the negated ceiling, because these are not positive.
+    """
+    needed = [name for name in NAMES if not of_ceiling or name != "truncation"]
+    wrong = all(_is_wrong(name, of_ceiling) == (name in needed) for name in NAMES)
+    directed = queued_edges_reversed().evidence.violation
+    case = f"{len(needed)} steps as printed, each of which alone gives a wrong envelope, and by {directed}"
+    return envelopes_against_judge(cases).unless(wrong and directed, case)
+
+
+def _is_wrong(name: str, of_ceiling: bool) -> bool:
+    """Return True if a step as printed gives a wrong envelope of its counterexample, upright or upside down."""
+    upright = array_of(counterexample_points(f"yau_{name}.csv"))
+    both = [[octree_hull(array, p) for p in (Printed(), Printed.only(name))] for array in (upright, upright[..., ::-1])]
+    trees = [[heights((hull.upper if of_ceiling else hull.lower).tree) for hull in hulls] for hulls in both]
+    return any(right != as_printed for right, as_printed in trees)
+
+
 def _draw_floor(random: Random) -> tuple[Point, ...]:
     return tuple((x, y, random.randint(0, 3)) for x in range(4) for y in range(4) if random.random() < 0.8)
 
@@ -56,11 +79,13 @@ def _draw_floor(random: Random) -> tuple[Point, ...]:
 FLOORS: Generator[tuple[Point, ...]] = Generator("floors of about 13 columns of height 0 to 3", 29, _draw_floor)
 
 
-def _reductions(cases: int) -> Iterator[tuple[set[Place], set[Place], set[Place], set[Place]]]:
-    """Yield sets of points of each floor: the vertices of its lower hull, and three sets of extreme points.
+@claim("yau-srihari.64", full=1_000)
+def extreme_in_row_and_column(cases: int = 6) -> Check:
+    """Check that the vertices of a floor's lower hull are extreme in their rows and columns, and remain in the set A.
 
-    These are extreme in the whole row and column, by the two steps one after the other, and as the program computes.
+    The set A has the points that are extreme in their columns among the points that are extreme in their rows.
     """
+    checks = []
     for floor_ in FLOORS.cases(cases):
         heights_ = {(x, y): z for x, y, z in floor_}
         extreme_in_both = {place for place in heights_ if all(_extreme(place, axis, heights_) for axis in (0, 1))}
@@ -70,26 +95,8 @@ def _reductions(cases: int) -> Iterator[tuple[set[Place], set[Place], set[Place]
         # The lower hull of the floor: copies of all points far above leave its lower vertices unchanged.
         hull = exact_hull([*floor_, *((x, y, z + 9) for x, y, z in floor_)])
         vertices = {floor_[k][:2] for k in hull.vertices if k < len(floor_)}
-        yield vertices, extreme_in_both, after_both, {*heights(reduced_tree(tree))}
-
-
-@claim("yau-srihari.64", full=1_000)
-def extreme_in_row_and_column(cases: int = 6) -> Check:
-    """Check that the vertices of a floor's lower hull are extreme points of their rows and columns."""
-    checks = [vertices <= extreme_in_both for vertices, extreme_in_both, *_ in _reductions(cases)]
-    return searched(FLOORS, cases, checks, "all extreme points are extreme in their row and column")
-
-
-@claim("yau-srihari.128", full=1_000)
-def row_and_column_steps(cases: int = 6) -> Check:
-    """Check that A has the points that are extreme among those left at each step, and all vertices of the hull."""
-    checks, larger = [], 0
-    for vertices, extreme_in_both, after_both, reduced in _reductions(cases):
-        checks.append(reduced == after_both and vertices <= extreme_in_both <= reduced)
-        larger += extreme_in_both < reduced
-    return searched(FLOORS, cases, checks, f"{len(checks)} floors keep all vertices").unless(
-        larger, f"floors with a remaining point that is not extreme in its column ({larger})"
-    )
+        checks.append(vertices <= extreme_in_both <= after_both == {*heights(reduced_tree(tree))})
+    return searched(FLOORS, cases, checks, "all extreme points are extreme in their row and column, and remain in A")
 
 
 def _extreme(place: Place, axis: int, heights_: Mapping[Place, int]) -> bool:
@@ -110,18 +117,25 @@ class _Counted(Search):
         super().take(point)
 
 
-@claim("yau-srihari.129")
-def angle_counts() -> Check:
-    """Count the angles that the search of the quadtree computes for the floor of a ball of diameter 8."""
-    floor = octree_hull(ball(8, VERTEX).array).floor
-    lower = envelope(written(no_columns(8), {at: Leaf(z) for at, z in floor.items()}), Printed())
-    reduced = written(no_columns(8), {(x, y): Leaf(z) for x, y, z in lower.reduced})
-    searches = [_Counted(*step.edge, step.normal, Printed()) for step in lower.steps]
+@claim("yau-srihari.129", full=100)
+def angle_counts(cases: int = 3) -> Check:
+    """Count the angles that the search of the quadtree computes, also for the floor of a ball of diameter 8."""
+    balls = ball(8, VERTEX).array
+    counts = [_angles(octree_hull(array)) for array in (balls, *map(array_of, SOLIDS.cases(cases)))]
+    (whole, preprocessed, by_search, with_bounds), *_ = counts
+    outcomes = [search <= reduced <= all_points for all_points, reduced, search, _ in counts]
+    message = f"a ball has {whole} angles of points, {preprocessed} after preprocessing, {by_search} by search"
+    check = searched(SOLIDS, cases, [*outcomes, by_search < preprocessed < whole], message)
+    return check.unless(with_bounds > whole, f"the bounds in a ball of diameter 8: with them {with_bounds} angles")
+
+
+def _angles(hull: OctreeHull) -> tuple[int, int, int, int]:
+    """Return the numbers of angles of all points beyond the edges, of points of A, of points searched, and of all."""
+    reduced = written(no_columns(hull.side), {(x, y): Leaf(z) for x, y, z in hull.lower.reduced})
+    searches = [_Counted(*step.edge, step.normal, Printed()) for step in hull.lower.steps]
     # Without the search, the angles of all points beyond the edge are computed.
-    whole, preprocessed = (sum(s.beyond(*at) for s in searches for at in tree) for tree in (floor, heights(reduced)))
+    points = hull.floor, heights(reduced)
+    whole, preprocessed = (sum(search.beyond(*at) for search in searches for at in tree) for tree in points)
     for search in searches:
         search.run(reduced)
-    by_search, with_bounds = sum(s.taken for s in searches), sum(step.angles for step in lower.steps)
-    message = f"a ball has {whole} angles of points, {preprocessed} after preprocessing, {by_search} by search"
-    check = exhibited(by_search < preprocessed < whole, message)
-    return check.unless(with_bounds > whole, f"the bounds in a ball of diameter 8: with them {with_bounds} angles")
+    return whole, preprocessed, sum(s.taken for s in searches), sum(step.angles for step in hull.lower.steps)
