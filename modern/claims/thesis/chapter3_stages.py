@@ -73,7 +73,8 @@ def one_of_several_planes(cases: int = CASES) -> Check:
     sets = sampled_sets(3, cases)
     several = sum(record.outside > 1 for sampled in sets for _, _, record, _ in _steps(sampled))
     outcomes = [several > 0, *(right for sampled in sets for right in _convexity(sampled))]
-    return searched(SETS[3], cases, outcomes, f"no convex body in {several} steps with several visible planes")
+    message = f"in {several} steps with several visible planes, replacing one of them gives no convex body"
+    return searched(SETS[3], cases, outcomes, message)
 
 
 @claim("thesis.226")

@@ -105,7 +105,10 @@ def plane_table_size() -> Check:
     planes = len(hull.facets)
     most = entries_of_plane_table()
     fits = len(hull.vertices) == MOST_POINTS and planes == 2 * MOST_POINTS - 4 == size == PLACES
-    check = exhibited(fits, f"a hull of {len(hull.vertices)} vertices with {planes} planes fits the table")
+    message = (
+        f"{len(hull.vertices)} points of a curve have {planes} planes, the most by Euler's formula, which fit the table"
+    )
+    check = exhibited(fits, message)
     return check.unless(most > size, f"the intermediate hulls of table.deck, which need {most} entries")
 
 
