@@ -205,9 +205,7 @@ def supporting_planes(cases: int = 5) -> Check:
             min(dot(n, p) for p in floor) == min(dot(n, v) for v in vertices) for n in NORMALS
         )
 
-    message = (
-        f"{len(NORMALS)} planes below or beside each floor that support it contain an extreme point, which is in it"
-    )
+    message = f"{len(NORMALS)} planes that support a floor from below or a side contain an extreme point in the floor"
     return search(SOLIDS, touch, cases, message)
 
 
