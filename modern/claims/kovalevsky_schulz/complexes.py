@@ -8,13 +8,11 @@ from collections.abc import Iterable, Iterator
 from functools import cache
 from itertools import combinations, combinations_with_replacement, product
 
-import numpy as np
-
 from modern.claims.evidence import Check, claim, exhausted, exhibited, search
 from modern.claims.hulls import exact_hull
 from modern.claims.kovalevsky_schulz.voxels import KINDS, SOLIDS, Voxels
 from modern.claims.sampled_sets import Point
-from modern.digital.solids import listed
+from modern.digital.solids import Volume, listed
 from modern.papers.kovalevsky_schulz import VERTICES
 from modern.papers.kovalevsky_schulz.corners import Of, places
 
@@ -65,15 +63,11 @@ def _complex(solid: Iterable[Point]) -> set[Cell]:
 def _placed(solid: Voxels, of: Of) -> set[Cell]:
     """Return the voxels of a solid, or the elements that the program labels for the corners of its voxels."""
     volume = listed(solid)
-    return {
-        tuple(map(sum, zip(place, volume.origin, strict=True))) for place in np.argwhere(places(volume, of)).tolist()
-    }
+    return {*map(tuple, Volume(places(volume, of), volume.origin).coordinates().tolist())}
 
 
 @claim("kovalevsky-schulz.25", full=4_000)
 def interior_and_closure(cases: int = 3) -> Check:
-    """Check that the hull of all cells of Int(M) has voxels as vertices, and that of Cl(M) the corners of voxels."""
-
     def agrees(solid: Voxels) -> bool:
         cells = _complex(solid)
         parts = zip(KINDS, (sorted(interior(cells)), sorted(cells)), (3, 0), strict=True)
@@ -88,8 +82,6 @@ def interior_and_closure(cases: int = 3) -> Check:
 
 @claim("kovalevsky-schulz.174", full=4_000)
 def additional_labels(cases: int = 3) -> Check:
-    """Check that assigning 0-cells to their farthest voxels labels more elements, the farthest of all among them."""
-
     def agrees(solid: Voxels) -> bool:
         corners = {cell for cell in _complex(solid) if dimension(cell) == 0}
         added = _halved(map(farthest_ground_cell, corners), 3) - {*solid}
@@ -100,7 +92,6 @@ def additional_labels(cases: int = 3) -> Check:
 
 @claim("kovalevsky-schulz.27")
 def cells_of_a_cube() -> Check:
-    """Check that a cube of n voxels on each side has (2 n + 1)^3 cells, about 8 n^3 for n = 256 but not for n = 1."""
     cubes = [(n, len(_complex((x, y, z) for x, y, z in product(range(n), repeat=3)))) for n in range(1, 7)]
     large = (2 * 256 + 1) ** 3 / 256**3
     message = f"cubes of n^3 voxels have (2 n + 1)^3 cells, {large:.2f} times as many if n is 256"
@@ -110,7 +101,6 @@ def cells_of_a_cube() -> Check:
 
 @claim("kovalevsky-schulz.175")
 def edges_at_a_0_cell() -> Check:
-    """Check that a 0-cell is incident to at most four 1-cells in a plane, but to more in space."""
     plane = {*product(range(5), repeat=2)}
     numbers = [sum(dimension(f) == 1 for f in star(cell) & plane) for cell in plane if dimension(cell) == 0]
     space = sum(dimension(cell) == 1 for cell in star((2, 2, 2)))
@@ -121,21 +111,20 @@ def edges_at_a_0_cell() -> Check:
 
 @claim("kovalevsky-schulz.139", "kovalevsky-schulz.140", "kovalevsky-schulz.110")
 def incidence_by_coordinates() -> Check:
-    """Check dimensions and incidences that follow from coordinates against the cells as closed sets of points.
-
-    A cell bounds another one if its set of points is a part of that of the other cell.  Incidence is not transitive.
-    """
     cells = [*product(range(5), repeat=3)]
     points = {cell: [(c // 2, (c + 1) // 2) for c in cell] for cell in cells}
     near = {cell: star(cell) | sides(cell) for cell in cells}
     outcomes = [len(set(map(tuple, points.values()))) == len(cells)]
     outcomes += [dimension(cell) == sum(low < high for low, high in points[cell]) for cell in cells]
-    for e, f in product(cells, repeat=2):
-        (a, b), (c, d), (g, h) = points[e]
-        (i, j), (k, m), (n, o) = points[f]
-        within = a >= i and b <= j and c >= k and d <= m and g >= n and h <= o
-        around = a <= i and b >= j and c <= k and d >= m and g <= n and h >= o
-        outcomes.append((within or around) == (f in near[e]) == (e in near[f]))
+    # A cell bounds another one if its set of points is a part of that of the other cell.
+    within = {
+        (e, f)
+        for e, f in product(cells, repeat=2)
+        if all(low <= a <= b <= high for (a, b), (low, high) in zip(points[e], points[f], strict=True))
+    }
+    outcomes += [
+        bool({(e, f), (f, e)} & within) == (f in near[e]) == (e in near[f]) for e, f in product(cells, repeat=2)
+    ]
     outcomes.append(any(near[f] - near[e] for e in cells for f in near[e] & {*cells}))
     message = "coordinates tell the dimension and the incident cells of each cell; incidence is not transitive"
     return exhausted("cells of a block of eight voxels and pairs of them", outcomes, message)
@@ -143,7 +132,6 @@ def incidence_by_coordinates() -> Check:
 
 @claim("kovalevsky-schulz.32", "kovalevsky-schulz.138")
 def cells_with_common_coordinates() -> Check:
-    """Check that a voxel and seven cells, of which three are 1-cells and three 2-cells, have the same coordinates."""
     dimensions: dict[Cell, list[int]] = {}
     # The cells beyond the last voxels belong to ground cells outside the block.
     for cell in product(range(8), repeat=3):
@@ -195,7 +183,6 @@ def connected(cells: Complex) -> set[tuple[int, int]]:
 
 @claim("kovalevsky-schulz.141")
 def connected_by_paths() -> Check:
-    """Check that cells are connected if and only if a path of incident cells leads from one to the other."""
     outcomes = []
     for cells in complexes(3):
         group = [*range(len(cells[0]))]

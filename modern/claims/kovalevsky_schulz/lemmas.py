@@ -1,12 +1,12 @@
 """Checks of section 3 of Kovalevsky and Schulz: lemmas LZ, CH and BE and the intermediate claims of their proofs."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from itertools import product
 
 from modern.claims.evidence import Check, claim, refuted, search, searched
-from modern.claims.hulls import convex_polyhedron, exact_hull
-from modern.claims.kovalevsky_schulz.polyhedra import growing_polyhedra, hulls
+from modern.claims.hulls import exact_hull
+from modern.claims.kovalevsky_schulz.polyhedra import OUTSIDE, growing_polyhedra, horizon, hulls, polyhedron
 from modern.claims.kovalevsky_schulz.proofs import formula_4, lemma_be, lemma_ch, lemma_lz
 from modern.claims.kovalevsky_schulz.voxels import KINDS, SOLIDS, Voxels, local, points_of
 from modern.claims.sampled_sets import (
@@ -16,24 +16,18 @@ from modern.claims.sampled_sets import (
     Point,
     counterexample_points,
     is_closed_curve,
-    plane_through,
     plane_value,
 )
 from modern.digital.solids import listed
-from modern.geometry.vectors import dot, minus
+from modern.exact_hull import ExactHull
+from modern.geometry.vectors import cross, dot, minus
 from modern.papers.kovalevsky_schulz import local_corners
-from modern.papers.kovalevsky_schulz.cells import CellList
+from modern.papers.kovalevsky_schulz.corners import Of
 
 
 @claim("kovalevsky-schulz.120", vertices="interior")
 @claim("kovalevsky-schulz.70", vertices="moved")
 def smaller_polyhedron(vertices: str) -> Check:
-    """Check a counterexample: a tetrahedron inside another, made by moving the apex down along an edge.
-
-    vertices: ``interior``, no vertex of the smaller tetrahedron is in the interior of the larger, as with four
-    alternate corners of a cube; ``moved``, one of them is neither a vertex of the larger tetrahedron nor in its
-    interior.
-    """
     *corners, lower = counterexample_points("shortened.csv")
     larger, smaller = exact_hull(corners), exact_hull([*corners[:-1], lower])
     within = [max(plane_value(f.plane, p) for f in larger.facets) for p in (*corners[:-1], lower)]
@@ -49,28 +43,17 @@ def smaller_polyhedron(vertices: str) -> Check:
 
 @claim("kovalevsky-schulz.126", "kovalevsky-schulz.75", full=1_000)
 def vertices_are_local_corners(cases: int = 2) -> Check:
-    """Check that the polyhedron of the local corners is the hull of the voxels, or of their corners."""
+    def agrees(solid: Voxels, of: Of) -> bool:
+        cells = polyhedron(local_corners(listed(solid), of))
+        planes = {facet.plane for facet in exact_hull(points_of(solid, of)).facets}
+        return {*cells.planes()} == planes and {*cells.points} <= local(solid, of)
 
-    def agrees(solid: Voxels) -> bool:
-        for of in KINDS:
-            cells = convex_polyhedron(local_corners(listed(solid), of))
-            planes = {facet.plane for facet in exact_hull(points_of(solid, of)).facets}
-            if not (
-                isinstance(cells, CellList) and {*cells.planes()} == planes and {*cells.points} <= local(solid, of)
-            ):
-                return False
-        return True
-
-    return search(SOLIDS, agrees, cases, "the hull of the local corners is that of the points, with local corners only")
+    message = "the hull of the local corners is that of the points, with local corners only"
+    return search(SOLIDS, lambda solid: all(agrees(solid, of) for of in KINDS), cases, message)
 
 
 @claim("kovalevsky-schulz.1", full=400)
 def proof_of_the_algorithm(cases: int = CASES) -> Check:
-    """Check that the proof of theorem PL is right if the project's steps replace three false statements.
-
-    The lemmas are proved. That each polyhedron of the construction is the intersection of the half-spaces of its faces,
-    which the proof of the theorem concludes from lemma BE, is searched.
-    """
     lemmas = [lemma().check().holds for lemma in (lemma_lz, lemma_ch, lemma_be)]
     construction = growing_polyhedra(cases)
     false = [smaller_polyhedron("interior"), smaller_polyhedron("moved"), coefficients_by_cosines()]
@@ -80,56 +63,45 @@ def proof_of_the_algorithm(cases: int = CASES) -> Check:
     return check.unless(not any(statement.holds for statement in false) and formula_4().evidence.violation, case)
 
 
-def _horizons(cases: int) -> Iterator[tuple[Point, Plane, Plane, Plane, list[Point], tuple[Point, Point]]]:
-    """Yield sampled edges between a visible and an invisible face, each with the new point and the planes involved."""
-    for points, judge in hulls(cases):
-        for new in ((9, 1, 0), (-8, 3, 7)):
-            for edge in judge.edges():
-                first_plane, second_plane = (f.plane for f in judge.facets if {*edge} <= {*f.polygon})
-                # The edge is on the horizon if exactly one of its faces is visible from the new point.
-                visible, hidden = (
-                    (first_plane, second_plane) if plane_value(first_plane, new) > 0 else (second_plane, first_plane)
-                )
-                if plane_value(visible, new) > 0 > plane_value(hidden, new):
-                    ends = points[edge[0]], points[edge[1]]
-                    yield new, visible, hidden, plane_through(*ends, new), [points[k] for k in judge.vertices], ends
+def _planes_at(edge: tuple[int, int], judge: ExactHull, new: Point) -> list[Plane]:
+    """Return the outward planes of the faces at an edge of a hull; the new point is farthest outside of the last."""
+    return sorted((f.plane for f in judge.facets if {*edge} <= {*f.polygon}), key=lambda f: plane_value(f, new))
+
+
+def _new_normal(edge: tuple[int, int], points: Sequence[Point], new: Point) -> Point:
+    """Return the outward normal of the face that joins an edge to the new point."""
+    corners = {*edge, len(points)}
+    return next(f.plane[:3] for f in exact_hull([*points, new]).facets if corners <= {*f.polygon})
 
 
 @claim("yau-srihari.14", full=400)
 def closed_boundary(cases: int = CASES) -> Check:
-    """Check that the edges between a visible and an invisible face of a hull form one closed curve."""
-    checks = []
-    for _, judge in hulls(cases):
-        for new in ((9, 1, 0), (-8, 3, 7), (11, -4, 13)):
-            visible = [f for f in judge.facets if plane_value(f.plane, new) > 0]
-            rim = [e for e in judge.edges() if sum({*e} <= {*f.polygon} for f in visible) == 1]
-            checks.append(is_closed_curve(rim))
+    pairs = product(hulls(cases), (*OUTSIDE, (11, -4, 13)))
+    checks = [is_closed_curve(horizon(judge, new)) for (_, judge), new in pairs]
     return searched(SETS[3], cases, checks, f"the boundary is closed for {len(checks)} points outside a hull")
 
 
 @claim("kovalevsky-schulz.73", full=400)
 def section_angles(cases: int = CASES) -> Check:
-    """Check that the angles of Fig. 9 are right if Q is the foot of the perpendicular and the edge is not sharp.
-
-    The angle beta is 90 - alpha or alpha - 90 if it is acute and the squares of the two cosines add up to 1.
-    """
     right: list[bool] = []
     sharp: list[bool] = []
     elsewhere: list[bool] = []
-    for new, visible, hidden, plane, vertices, edge in _horizons(cases):
-        sign = -1 if max(plane_value(plane, p) for p in vertices) > 0 else 1
-        outward = tuple(sign * n for n in plane[:3])
-        along = minus(edge[1], edge[0])
-        share = Fraction(dot(along, minus(new, edge[0])), dot(along, along))
-        # The foot of the perpendicular from P on the line of the edge.
-        foot = [a + share * d for a, d in zip(edge[0], along, strict=True)]
-        # An edge is sharp if the faces form an acute angle, so that the angle of their normals is obtuse.
-        at_foot = right if dot(visible[:3], hidden[:3]) >= 0 else sharp
-        for q, sums in ((foot, at_foot), ([*map(Fraction, edge[0])], elsewhere)):
-            line = [p - c for p, c in zip(new, q, strict=True)]
-            for normal in (visible[:3], hidden[:3]):
-                acute = dot(normal, outward) > 0  # type: ignore[arg-type]
-                sums.append(acute and _cosine(normal, line) + _cosine(normal, outward) == 1)
+    for (points, judge), new in product(hulls(cases), OUTSIDE):
+        for edge in horizon(judge, new):
+            hidden, visible = _planes_at(edge, judge, new)
+            if plane_value(hidden, new) == 0:
+                continue
+            outward = _new_normal(edge, points, new)
+            along, way = minus(points[edge[1]], points[edge[0]]), minus(new, points[edge[0]])
+            # The way to P from the foot of the perpendicular, and from an end of the edge.
+            share = Fraction(dot(along, way), dot(along, along))
+            upright = [w - share * a for w, a in zip(way, along, strict=True)]
+            # An edge is sharp if the faces form an acute angle, so that the angle of their normals is obtuse.
+            at_foot = right if dot(visible[:3], hidden[:3]) >= 0 else sharp
+            # The angle beta is 90 - alpha or alpha - 90 if it is acute and the squares of the cosines add up to 1.
+            for line, normal in product((upright, way), (visible[:3], hidden[:3])):
+                is_right = dot(normal, outward) > 0 and _cosine(normal, line) + _cosine(normal, outward) == 1
+                (elsewhere if line is way else at_foot).append(is_right)
     check = searched(SETS[3], cases, right, f"{len(right)} angles are right with Q at the foot of the perpendicular")
     case = f"Q at an end of the edge, with {elsewhere.count(False)} wrong angles, and sharp edges, {sharp.count(False)}"
     return check.unless(False in elsewhere and False in sharp, case)
@@ -143,31 +115,16 @@ def _cosine(u: Sequence[int | Fraction], v: Sequence[int | Fraction]) -> Fractio
 
 @claim("kovalevsky-schulz.122")
 def coefficients_by_cosines() -> Check:
-    """Check the counterexample of an edge for which the coefficients a : b are a ratio of sines and not of cosines.
-
-    For unit normals a : b is sin(beta_n) : sin(beta_v); the squares are compared.
-    """
-    *_, apex, new = points = counterexample_points("cosines.csv")
-    p, q = points[1], points[2]
-    slanted, below = plane_through(p, q, apex), plane_through(p, points[0], q)
-    normal = plane_through(p, q, new)[:3]
-    inner = points[0], apex
-    visible, hidden, outer = (
-        tuple(-n for n in face) if any(dot(face, minus(r, p)) > 0 for r in inner) else face
-        for face in (below[:3], slanted[:3], normal)
-    )
-    a, b = _coefficients(visible, hidden, outer)  # type: ignore[arg-type]
+    *body, new = counterexample_points("cosines.csv")
+    hidden, visible = (plane[:3] for plane in _planes_at((1, 2), exact_hull(body), new))
+    outer = _new_normal((1, 2), body, new)
+    # The normals are perpendicular to the edge. So the vector products give a : b in outer = a visible + b hidden.
+    a, b = (dot(cross(visible, hidden), c) for c in (cross(outer, hidden), cross(visible, outer)))
     # Compare squares for unit normals, so that no roots are needed.
-    ratio = a * a * dot(visible, visible) / (b * b * dot(hidden, hidden))  # type: ignore[arg-type]
+    ratio = Fraction(a * a * dot(visible, visible), b * b * dot(hidden, hidden))
     cosines = _cosine(visible, outer) / _cosine(hidden, outer)
     sines = (1 - _cosine(hidden, outer)) / (1 - _cosine(visible, outer))
-    one_face_visible = dot(visible, minus(new, p)) > 0 > dot(hidden, minus(new, p))  # type: ignore[arg-type]
+    way = minus(new, body[1])
+    one_face_visible = dot(visible, way) > 0 > dot(hidden, way)
     message = f"(a : b)^2 is {ratio}, (cos beta_v : cos beta_n)^2 is {cosines}, (sin beta_n : sin beta_v)^2 is {sines}"
     return refuted(one_face_visible and a > 0 < b and ratio == sines != cosines, message)
-
-
-def _coefficients(u: Point, v: Point, w: Point) -> tuple[Fraction, Fraction]:
-    """Return a and b of w = a u + b v."""
-    uu, uv, vv, uw, vw = dot(u, u), dot(u, v), dot(v, v), dot(u, w), dot(v, w)
-    determinant = uu * vv - uv * uv
-    return Fraction(uw * vv - vw * uv, determinant), Fraction(vw * uu - uw * uv, determinant)

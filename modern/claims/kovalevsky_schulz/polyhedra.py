@@ -14,15 +14,7 @@ from modern.digital.solids import Volume, listed
 from modern.exact_hull import ExactHull
 from modern.geometry.mesh import sides
 from modern.geometry.vectors import independent
-from modern.papers.kovalevsky_schulz import (
-    CENTRES,
-    INVISIBLE,
-    VERTICES,
-    VISIBLE,
-    expanded,
-    reconstructed,
-    voxel_hull,
-)
+from modern.papers.kovalevsky_schulz import CENTRES, INVISIBLE, VERTICES, VISIBLE, expanded, reconstructed, voxel_hull
 from modern.papers.kovalevsky_schulz.cells import CellList
 from modern.papers.kovalevsky_schulz.coplanar import EXTENDED, QUADRANGLES, coplanar_hull
 from modern.papers.kovalevsky_schulz.corners import Of
@@ -31,11 +23,24 @@ from modern.papers.kovalevsky_schulz.polyhedron import Coplanar, CurrentPolyhedr
 
 GRID: tuple[Point, ...] = tuple((x, y, z) for x, y, z in product(range(3), repeat=3))
 PYRAMID: tuple[Point, ...] = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 2))
-SQUARE: tuple[Point, ...] = ((0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0))
+LARGER_PYRAMID = (*PYRAMID, (3, 3, 0))
+# Points outside the sampled hulls, whose coordinates are at most 5.
+OUTSIDE: tuple[Point, ...] = ((9, 1, 0), (-8, 3, 7))
 
 
 def hulls(cases: int) -> tuple[tuple[tuple[Point, ...], ExactHull], ...]:
     return tuple((sampled.points, sampled.judge) for sampled in sampled_sets(3, cases))
+
+
+def horizon(judge: ExactHull, new: Point) -> list[tuple[int, int]]:
+    """Return the edges that belong to exactly one of the faces that are visible from a new point."""
+    visible = [{*f.polygon} for f in judge.facets if plane_value(f.plane, new) > 0]
+    return [edge for edge in judge.edges() if sum({*edge} <= face for face in visible) == 1]
+
+
+def polygons(points: Sequence[Point]) -> list[tuple[int, ...]]:
+    """Return the faces of the exact hull as sorted cycles of vertices."""
+    return sorted(f.polygon for f in exact_hull(points).facets)
 
 
 def polyhedron(points: object, coplanar: Coplanar = VISIBLE) -> CellList:
@@ -46,14 +51,12 @@ def polyhedron(points: object, coplanar: Coplanar = VISIBLE) -> CellList:
 
 @claim("kovalevsky-schulz.5", "kovalevsky-schulz.75", full=400)
 def algorithm_against_judge(cases: int = CASES) -> Check:
-    """Check that both treatments of coplanar faces give the exact hull, unless all points are coplanar."""
     check = either_treatment(cases)
-    return check.unless(len(independent(SQUARE)) < 4, "a square, which contains no tetrahedron to start with")
+    return check.unless(len(independent(PYRAMID[:4])) < 4, "a square, which contains no tetrahedron to start with")
 
 
 @claim("kovalevsky-schulz.53", "kovalevsky-schulz.144", full=400)
 def either_treatment(cases: int = CASES) -> Check:
-    """Check that both treatments of coplanar faces give the exact hull of samples and of a grid of coplanar points."""
     outcomes = []
     for points, judge in ((GRID, exact_hull(GRID)), *hulls(cases)):
         for coplanar in (VISIBLE, INVISIBLE):
@@ -66,7 +69,6 @@ def either_treatment(cases: int = CASES) -> Check:
 
 @claim("kovalevsky-schulz.35", full=400)
 def any_order(cases: int = CASES) -> Check:
-    """Check that any order of points gives the same hull: the first four that are not coplanar make a tetrahedron."""
     outcomes = []
     for points, judge in hulls(cases):
         for order in (points, points[::-1], sorted(points)):
@@ -77,12 +79,9 @@ def any_order(cases: int = CASES) -> Check:
 
 @claim("kovalevsky-schulz.127", "kovalevsky-schulz.169", "kovalevsky-schulz.77", full=400)
 def growing_polyhedra(cases: int = CASES) -> Check:
-    """Check each polyhedron of the construction: the intersection of half-spaces, with the points and polyhedra before.
-
-    The first polyhedron is the tetrahedron of the first points that are not coplanar, with the points before them.
-    """
     outcomes = []
     for points, _ in hulls(cases):
+        # The first polyhedron is the hull of the points up to the first four that are not coplanar.
         before: tuple[Point, ...] = ()
         planes_before: tuple[Plane, ...] = ()
         for n in range(1 + max(independent(points)), len(points) + 1):
@@ -99,7 +98,6 @@ def growing_polyhedra(cases: int = CASES) -> Check:
 
 @claim("kovalevsky-schulz.50", "yau-srihari.15", full=120)
 def points_that_see_no_face(cases: int = 1) -> Check:
-    """Check that a grid point sees no face of a hull if and only if it is in the hull."""
     outcomes, held = [], 0
     for points, judge in hulls(cases):
         for x, y, z in product((1, 4), repeat=3):
@@ -114,29 +112,24 @@ def points_that_see_no_face(cases: int = 1) -> Check:
 
 @claim("kovalevsky-schulz.161", "kovalevsky-schulz.51", "yau-srihari.114", full=400)
 def cells_removed(cases: int = CASES) -> Check:
-    """Check that a new point removes the visible faces, edges between two of them, and vertices on no other face."""
     checks = []
-    for points, judge in hulls(cases):
-        for new in ((9, 1, 0), (-8, 3, 7)):
-            values = {f: plane_value(f.plane, new) for f in judge.facets}
-            after = exact_hull([*points, new])
-            if 0 in values.values():
-                continue
-            # The invisible faces must remain, with a new triangle on each edge that bounds exactly one of them.
-            hidden = {frozenset(f.polygon) for f, v in values.items() if v < 0}
-            faces = {frozenset(f.polygon) for f in after.facets}
-            rim = [e for e in judge.edges() if sum({*e} <= h for h in hidden) == 1]
-            checks.append(faces == hidden | {frozenset((*edge, len(points))) for edge in rim})
-            checks.append({*after.vertices} == {v for h in hidden for v in h} | {len(points)})
-            remaining_edges = {e for e in judge.edges() if any({*e} <= h for h in hidden)}
-            checks.append({e for e in after.edges() if len(points) not in e} == remaining_edges)
+    for (points, judge), new in product(hulls(cases), OUTSIDE):
+        if any(plane_value(f.plane, new) == 0 for f in judge.facets):
+            continue
+        after = exact_hull([*points, new])
+        # The invisible faces must remain, with a new triangle on each edge of the horizon.
+        hidden = {frozenset(f.polygon) for f in judge.facets if plane_value(f.plane, new) < 0}
+        triangles = {frozenset((*edge, len(points))) for edge in horizon(judge, new)}
+        checks.append({frozenset(f.polygon) for f in after.facets} == hidden | triangles)
+        checks.append({*after.vertices} == {v for h in hidden for v in h} | {len(points)})
+        remaining_edges = {e for e in judge.edges() if any({*e} <= h for h in hidden)}
+        checks.append({e for e in after.edges() if len(points) not in e} == remaining_edges)
     generator = replace(SETS[3], name=f"{SETS[3].name}, and two points outside unless they are in the plane of a face")
     return searched(generator, cases, checks, f"true for {len(checks) // 3} points outside a hull")
 
 
 @claim("kovalevsky-schulz.52")
 def cube_visible_from_corner() -> Check:
-    """Check that a point beyond a corner of a cube removes the three faces that it sees and the edges between them."""
     cube = [*product((0, 2), repeat=3)]
     judge, after = exact_hull(cube), exact_hull([*cube, (3, 3, 3)])
     visible = {f for f in judge.facets if plane_value(f.plane, (3, 3, 3)) > 0}
@@ -149,7 +142,6 @@ def cube_visible_from_corner() -> Check:
 
 @claim("kovalevsky-schulz.54", "kovalevsky-schulz.166")
 def coplanar_triangles() -> Check:
-    """Check that a hull is built of more triangles than it has faces if coplanar faces count as visible."""
     cells = polyhedron(GRID)
     passed = len(merged(cells).faces) == 6 < len(cells.faces)
     return exhibited(passed, f"a cubic grid of points gets {len(cells.faces)} triangles, which are merged to 6 faces")
@@ -157,7 +149,6 @@ def coplanar_triangles() -> Check:
 
 @claim("kovalevsky-schulz.63", full=400)
 def unmerged_triangles(cases: int = CASES) -> Check:
-    """Check that coplanar triangles may be left unmerged: their planes are the planes of the hull's faces."""
     lists = [polyhedron(points) for points in (GRID, *(points for points, _ in hulls(cases)))]
     outcomes = [{*cells.planes()} == {*merged(cells).planes()} for cells in lists]
     outcomes += [all(len(face.pairs) == 3 for face in cells.faces) for cells in lists]
@@ -167,15 +158,11 @@ def unmerged_triangles(cases: int = CASES) -> Check:
 
 @claim("kovalevsky-schulz.56")
 def invisible_needs_fewer_faces() -> Check:
-    """Check that fewer new faces are needed if coplanar faces are invisible and faces of four corners are allowed."""
-    new = (3, 3, 0)
-    before, after = (coplanar_hull(points, QUADRANGLES) for points in (PYRAMID, (*PYRAMID, new)))
-    invisible, visible = after.created - before.created, _created((*PYRAMID, new)) - _created(PYRAMID)
-    right = sorted(after.faces) == sorted(f.polygon for f in exact_hull((*PYRAMID, new)).facets)
-    message = (
-        f"a point adds {invisible} new faces to a pyramid if coplanar faces are invisible, and {visible} if visible"
-    )
-    return exhibited(right and after.larger > before.larger and invisible < visible, message)
+    before, after = (coplanar_hull(points, QUADRANGLES) for points in (PYRAMID, LARGER_PYRAMID))
+    invisible, visible = after.created - before.created, _created(LARGER_PYRAMID) - _created(PYRAMID)
+    passed = [*after.faces] == polygons(LARGER_PYRAMID) and after.larger > before.larger and invisible < visible
+    message = f"a point adds {invisible} new faces to a pyramid if coplanar faces are invisible, "
+    return exhibited(passed, f"{message}and {visible} if visible")
 
 
 def _created(points: Sequence[Point]) -> int:
@@ -190,34 +177,28 @@ def _created(points: Sequence[Point]) -> int:
 
 @claim("kovalevsky-schulz.58")
 def extended_faces() -> Check:
-    """Check that extending faces to coplanar points gives the exact hull of a cubic grid of points."""
     extended = coplanar_hull(GRID, EXTENDED)
-    right = list(extended.faces) == sorted(f.polygon for f in exact_hull(GRID).facets)
     message = f"the hull of a cubic grid of points is found; {extended.extended} times, a face is extended to a point"
-    return exhibited(right and extended.extended > 0, message)
+    return exhibited([*extended.faces] == polygons(GRID) and extended.extended > 0, message)
 
 
 @claim("kovalevsky-schulz.59", full=2_000)
 def fewest_new_faces(cases: int = 3) -> Check:
-    """Check that extending coplanar faces gives the exact hull with fewer new faces than both other treatments."""
-
     def has_fewest(solid: Voxels) -> bool:
-        extended, quadrangles_hull = coplanar_hull(solid, EXTENDED), coplanar_hull(solid, QUADRANGLES)
-        right = list(extended.faces) == sorted(f.polygon for f in exact_hull(solid).facets)
-        return right and extended.created < min(quadrangles_hull.created, _created(solid))
+        extended = coplanar_hull(solid, EXTENDED)
+        fewest = min(coplanar_hull(solid, QUADRANGLES).created, _created(solid))
+        return [*extended.faces] == polygons(solid) and extended.created < fewest
 
-    spatial = replace(
-        SOLIDS,
-        name=f"{SOLIDS.name}, not flat",
-        accepts=lambda solid: SOLIDS.accepts(solid) and exact_hull(solid).dimension == len("xyz"),
-    )
+    def is_spatial(solid: Voxels) -> bool:
+        return SOLIDS.accepts(solid) and exact_hull(solid).dimension == len("xyz")
+
+    spatial = replace(SOLIDS, name=f"{SOLIDS.name}, not flat", accepts=is_spatial)
     message = "the hulls are exact and have fewer new faces than with coplanar faces visible, or invisible as in Fig. 7"
     return search(spatial, has_fewest, cases, message)
 
 
 @claim("kovalevsky-schulz.60")
 def point_in_two_planes() -> Check:
-    """Check that a point in line with an edge of a tetrahedron is in the planes of the two faces at this edge."""
     faces = exact_hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]).facets
     coplanar = [{*f.polygon} for f in faces if plane_value(f.plane, (2, 0, 0)) == 0]
     passed = len(coplanar) == 2 and coplanar[0] & coplanar[1] == {0, 1}
@@ -226,22 +207,17 @@ def point_in_two_planes() -> Check:
 
 @claim("kovalevsky-schulz.55")
 def quadrangles() -> Check:
-    """Check a point in the plane of a pyramid's square base, from which two faces at sides of the square are visible.
-
-    The new face joins the point to the two outer ends of these sides. The square and the new face become one face, from
-    which the corner between the two sides vanishes.
-    """
-    new = (3, 3, 0)
-    judge, exact = exact_hull(PYRAMID), exact_hull((*PYRAMID, new))
+    judge, new = exact_hull(PYRAMID), LARGER_PYRAMID[-1]
     (square,) = (f for f in judge.facets if plane_value(f.plane, new) == 0)
     visible = [{*f.polygon} for f in judge.facets if plane_value(f.plane, new) > 0]
     common = [side for side in sides(square.polygon) if any({*side} <= face for face in visible)]
     counts = Counter(end for side in common for end in side)
     ends, between = ({k for k, count in counts.items() if count == n} for n in (1, 2))
     merged_face = {*square.polygon} - between | {len(PYRAMID)}
-    outcomes = [len(ends) == len(common) == 2, merged_face in [{*f.polygon} for f in exact.facets]]
-    before, after = (coplanar_hull(points, QUADRANGLES) for points in (PYRAMID, (*PYRAMID, new)))
-    outcomes += [after.larger == before.larger + 1, [*after.faces] == sorted(f.polygon for f in exact.facets)]
+    faces = polygons(LARGER_PYRAMID)
+    outcomes = [len(ends) == len(common) == 2, merged_face in map(set, faces)]
+    before, after = (coplanar_hull(points, QUADRANGLES) for points in (PYRAMID, LARGER_PYRAMID))
+    outcomes += [after.larger == before.larger + 1, [*after.faces] == faces]
     corners = len(ends | between) + 1
     message = f"the new face has {corners} corners and, with the square, {len(common)} common edges; "
     message += f"the new point is joined to {len(ends)} ends"
@@ -251,7 +227,6 @@ def quadrangles() -> Check:
 @claim("kovalevsky-schulz.163", treatment="invisible")
 @claim("kovalevsky-schulz.165", treatment="extended")
 def collinear_edges(treatment: str) -> Check:
-    """Check that a new point in line with an edge takes the place of the end of this edge as a vertex."""
     points = [(0, 0, 0), (4, 0, 0), (4, 4, 0), (0, 4, 0), (1, 1, 5), (8, 0, 0)]
     cells = merged(polyhedron(points, INVISIBLE))
     removed = {*cells.points} - {*straightened(cells).points}
@@ -262,11 +237,9 @@ def collinear_edges(treatment: str) -> Check:
 
 @claim("kovalevsky-schulz.44", "kovalevsky-schulz.160", full=1_000)
 def economical_encoding(cases: int = 4) -> Check:
-    """Check that coordinates and the vertices of each face determine all edges, and the edges of each vertex."""
-
     def returns(solid: Voxels) -> bool:
-        cells = convex_polyhedron(solid)
-        return isinstance(cells, CellList) and _incidences(expanded(cells.economical())) == _incidences(cells)
+        cells = polyhedron(solid)
+        return _incidences(expanded(cells.economical())) == _incidences(cells)
 
     return search(SOLIDS, returns, cases, "the edges follow from the economical encodings")
 
@@ -297,13 +270,11 @@ def _search_restored(of: Of, cases: int) -> Check:
 
 @claim("kovalevsky-schulz.46", full=500)
 def reconstruction_by_corners(cases: int = 2) -> Check:
-    """Check that a digitally convex object is restored from the hull of its voxels' corners."""
     return _search_restored(VERTICES, cases)
 
 
 @claim("kovalevsky-schulz.99", full=500)
 def reconstruction(cases: int = 2) -> Check:
-    """Check that the hull of the voxels' centres restores a digitally convex solid, and fills any other solid."""
     gap = [(0, 0, 0), (2, 0, 0), (0, 1, 0), (0, 0, 1)]
     filled = len(_restored(gap, CENTRES)) > len(gap)
     return _search_restored(CENTRES, cases).unless(filled, "four voxels with a gap, which is filled")

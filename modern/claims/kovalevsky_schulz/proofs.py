@@ -1,7 +1,5 @@
 """Proofs of lemmas LZ, CH and BE of Kovalevsky and Schulz; :mod:`modern.claims.algebra` checks the steps."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from modern.claims.algebra import (
@@ -24,43 +22,28 @@ from modern.geometry import vectors
 
 
 def largest_of_part() -> Proof:
-    """Prove that points that an inequality H >= 0 cuts off have larger values of H than all other points."""
     h_c, h_v = variables("H_c H_v")
+    signs, terms = {"c": not_negative(h_c), "v": positive(-h_v)}, (term("c"), term("v"))
     return Proof(
         "the largest value of H in a part with H >= 0 is the largest in the whole set",
         "H is negative at the points outside the part, and not negative in the part, which is not empty.",
-        (
-            Step(
-                "a point v that is not cut off has a smaller value of H",
-                {"c": not_negative(h_c), "v": positive(-h_v)},
-                positive(h_c - h_v),
-                (term("c"), term("v")),
-            ),
-        ),
+        (Step("a point v that is not cut off has a smaller value of H", signs, positive(h_c - h_v), terms),),
     )
 
 
 def last_of_three_choices() -> Proof:
-    """Prove that a single vector has the largest z of those with the largest y of those with the largest x."""
     way = minus(point("p", 3), point("q", 3))
     equal = {axis: zero(d) for axis, d in zip("xyz", way, strict=True)}
+    terms = tuple(term(axis, d) for axis, d in zip("xyz", way, strict=True))
     return Proof(
         "a single vector remains after the choices of the largest x, y and z",
         "A finite set that is not empty has a largest x, and so have the vectors chosen by it a largest y, and those "
         "chosen by both a largest z. Two vectors that remain have the same x, y and z, and so their distance is 0.",
-        (
-            Step(
-                "the square of their distance is 0",
-                equal,
-                zero(dot(way, way)),
-                tuple(term(axis, d) for axis, d in zip("xyz", way, strict=True)),
-            ),
-        ),
+        (Step("the square of their distance is 0", equal, zero(dot(way, way)), terms),),
     )
 
 
 def largest_combination() -> Proof:
-    """Prove that a point with the largest value of a linear function is a combination only of such points."""
     return Proof(
         "a point with the largest value of H is a combination only of points with this value",
         "H of a combination is the combination of the values of H. More than two points are combined one after the "
@@ -70,23 +53,17 @@ def largest_combination() -> Proof:
 
 
 def lemma_lz() -> Proof:
-    """Prove that if an inequality cuts off a nonempty part of a finite set, this part contains a vertex of the hull."""
     return Proof(
         "a part of a finite set that a linear inequality cuts off contains a point that is no combination of others",
         "The part is not empty, so it contains all points with the largest value of the linear function H. Among them "
         "take those with the largest x, then the largest y, and then the largest z: one point c. If c is a "
         "combination of points of the set with positive weights, all of them have the H of c. Then they have its x, y "
         "and z, and so they are c. More than two points are combined one after the other.",
-        (
-            *largest_of_part().steps,
-            *last_of_three_choices().steps,
-            *largest_combination().steps,
-        ),
+        (*largest_of_part().steps, *last_of_three_choices().steps, *largest_combination().steps),
     )
 
 
 def lemma_ch() -> Proof:
-    """Prove by Minkowski's theorem that a polyhedron with all local corners, its vertices among them, is the hull."""
     return Proof(
         "a convex polyhedron that contains all local corners, and whose vertices are local corners, is the hull",
         "If a point of V is not in K, an inequality of K cuts it off. By lemma LZ the part cut off contains a point "
@@ -98,7 +75,6 @@ def lemma_ch() -> Proof:
 
 
 def vertex_is_no_combination() -> Proof:
-    """Prove that a vertex of a convex polyhedron is a combination of no other points of the polyhedron."""
     return Proof(
         "a point of a convex polyhedron is a vertex if and only if it is a combination of no other points of it",
         "A vertex is the only point with the largest value of some linear function, so that a combination of other "
@@ -110,45 +86,30 @@ def vertex_is_no_combination() -> Proof:
 
 
 def choice_of_q() -> Proof:
-    """Prove that the scalar product that defines visibility does not depend on the point Q chosen on the face."""
     n, p, q, r = (point(name, 3) for name in "npqr")
-    products = [dot(n, minus(p, corner)) for corner in (q, r)]
+    in_face, difference = zero(dot(n, minus(q, r))), zero(dot(n, minus(p, q)) - dot(n, minus(p, r)))
+    says = "the product of the normal with P - Q does not depend on Q"
     return Proof(
         "the scalar product of a face's normal with the way to P is the same from all points Q of the face",
         "The normal is perpendicular to the way from one point of the face to another. So the sign of its product with "
         "the way to P, which tells acute from obtuse angles, is the same for all of them.",
-        (
-            Step(
-                "the product of the normal with P - Q does not depend on Q",
-                {"face": zero(dot(n, minus(q, r)))},
-                zero(products[0] - products[1]),
-                (term("face", -1),),
-            ),
-        ),
+        (Step(says, {"face": in_face}, difference, (term("face", -1),)),),
     )
 
 
 def halves() -> Proof:
-    """Prove that the hulls of two sets do not meet if all x of one are smaller than all x of the other."""
     x, p, q, w_p, w_q = variables("x p q w_p w_q")
     below = {"p": positive(x - p), "q": positive(x - q), "w_p": positive(w_p), "w_q": not_negative(w_q)}
+    smaller = positive((w_p + w_q) * x - w_p * p - w_q * q)
     return Proof(
         "the hulls of two sets do not meet if a plane x = c is between the sets",
         "All combinations of points with a smaller x have a smaller x. The other set is treated in the same way with "
         "the opposite sign.",
-        (
-            Step(
-                "x of a combination is smaller",
-                below,
-                positive((w_p + w_q) * x - w_p * p - w_q * q),
-                (term("w_p p"), term("w_q q")),
-            ),
-        ),
+        (Step("x of a combination is smaller", below, smaller, (term("w_p p"), term("w_q q"))),),
     )
 
 
 def symmetry() -> Proof:
-    """Prove that a rotation or reflection that maps a set to itself maps its hull to itself."""
     return Proof(
         "a rotation or reflection that maps the points to themselves maps their hull to itself",
         "Each coordinate of the image is a linear function with a constant term, so that the image of a combination is "
@@ -159,7 +120,6 @@ def symmetry() -> Proof:
 
 
 def lemma_be() -> Proof:
-    """Prove that the plane through a horizon edge and the new point supports the hull."""
     visible, hidden = point("v", 3), point("n", 3)
     edge, new, way = point("e", 3), point("p", 3), point("w", 3)
     a, b = -dot(hidden, new), dot(visible, new)
@@ -172,6 +132,8 @@ def lemma_be() -> Proof:
     }
     strictly = {**signs, "within_n": positive(-dot(hidden, way))}
     terms = term("hidden within_v"), term("visible within_n")
+    along_edge = {"v": zero(dot(visible, edge)), "n": zero(dot(hidden, edge))}
+    combined = term("v", a), term("n", b)
     return Proof(
         "the plane through the new point and a horizon edge has the whole polyhedron on one side",
         "Let Q be a point of the edge, and let N_v and N_n be the normals of the visible and of the other face. With "
@@ -181,12 +143,7 @@ def lemma_be() -> Proof:
         "with P.",
         (
             Step("the normal is perpendicular to P - Q", {}, zero(dot(normal, new))),
-            Step(
-                "the normal is perpendicular to the edge",
-                {"v": zero(dot(visible, edge)), "n": zero(dot(hidden, edge))},
-                zero(dot(normal, edge)),
-                (term("v", a), term("n", b)),
-            ),
+            Step("the normal is perpendicular to the edge", along_edge, zero(dot(normal, edge)), combined),
             Step("no point of the polyhedron is beyond the new plane", signs, not_negative(-dot(normal, way)), terms),
             Step("inner points are on the inner side of the new plane", strictly, positive(-dot(normal, way)), terms),
         ),
@@ -210,10 +167,7 @@ def proof_of_lemma(proof: Callable[[], Proof]) -> Check:
 
 @claim("kovalevsky-schulz.72")
 def formula_4() -> Check:
-    """Check that the factors of formula (4) are positive, but a is 0 if the new point is coplanar with the other face.
-
-    The case is an edge of the cube with corners from 0 to 2, between the faces x = 2 and z = 0.
-    """
+    # A point beyond the edge of the cube with corners from 0 to 2 that is between the faces x = 2 and z = 0.
     visible, hidden, edge, new = (1, 0, 0), (0, 0, -1), (2, 1, 0), (4, 1, 0)
     a, b = -vectors.dot(hidden, vectors.minus(new, edge)), vectors.dot(visible, vectors.minus(new, edge))
     return lemma_be().check().unless(a == 0 < b, f"{new}, in the plane of a face of a cube: a is 0")
@@ -221,7 +175,6 @@ def formula_4() -> Check:
 
 @claim("kovalevsky-schulz.146", "yau-srihari.17")
 def halves_of_sorted_set() -> Check:
-    """Check that the hulls of two halves of points sorted by x do not meet if no x is in both; otherwise they may."""
     first, second = [(0, 0, 0), (0, 2, 0)], [(0, 1, 0), (1, 1, 0)]
     meet = max(p[0] for p in first) <= min(p[0] for p in second) and 2 not in exact_hull([*first, second[0]]).vertices
     return halves().check().unless(meet, "the halves (0, 0), (0, 2) and (0, 1), (1, 1), whose hulls meet in (0, 1)")

@@ -1,13 +1,20 @@
-"""Checks of sections 4 and 5 of Kovalevsky and Schulz: sizes of cell lists and triangulations, and symmetry."""
+"""Checks of sections 4 and 5 of Kovalevsky and Schulz: sizes of cell lists and triangulations, and half-balls.
 
-import re
+The half-balls are those of Table 5. The paper does not define how a half-ball is digitised.
+"""
+
 from fractions import Fraction
+from itertools import product
 
-from modern.claims.evidence import Check, claim, exhibited, searched, slip
-from modern.claims.invariants import half_balls
+from modern.claims.evidence import Check, claim, exhibited, refuted, searched, slip
+from modern.claims.hulls import exact_hull
+from modern.claims.invariants import HalfBall, half_balls, may_be_convex, numbers_in
 from modern.claims.kovalevsky_schulz.polyhedra import hulls, polyhedron
 from modern.claims.published import PAPERS, printed_lines, results_of
-from modern.claims.sampled_sets import CASES, SETS
+from modern.claims.sampled_sets import CASES, SETS, Point
+from modern.digital.solids import listed
+from modern.geometry.vectors import dot, minus
+from modern.papers.kovalevsky_schulz import INVISIBLE, VERTICES, local_corners, voxel_hull
 from modern.papers.kovalevsky_schulz.cells import CellList, cell_list_size, economical_size, triangulation_size
 from modern.papers.kovalevsky_schulz.hull import merged, straightened
 from modern.papers.kovalevsky_schulz.results import half_ball_cells
@@ -17,7 +24,6 @@ PAPER = next(paper for paper in PAPERS if paper.name == "kovalevsky-schulz")
 
 @claim("kovalevsky-schulz.78", full=400)
 def formula_5(cases: int = CASES) -> Check:
-    """Check that formula (5) gives 6 integers too few: it counts 2 V triangles, but a triangulation has 2 V - 4."""
     lists = [polyhedron(points) for points, _ in hulls(cases)]
     excess = [3 * len(c.vertices) + 3 * len(c.faces) - triangulation_size(len(c.faces)) for c in lists]
     return searched(SETS[3], cases, [e == 6 for e in excess], "hulls of triangles need 6 integers more than (5) gives")
@@ -25,7 +31,6 @@ def formula_5(cases: int = CASES) -> Check:
 
 @claim("kovalevsky-schulz.91")
 def integers_per_face() -> Check:
-    """Check that all quotients of Table 5 are rounded except one that is truncated; they are printed in hundredths."""
     rows = [result.printed[0].split() for result in results_of(PAPER) if result.id.startswith("table5-")]
     quotients = [(int(row[6].replace(".", "")), Fraction(100 * int(row[5]), int(row[4]))) for row in rows]
     wrong = [(printed, exact) for printed, exact in quotients if printed != round(exact)]
@@ -37,13 +42,9 @@ def integers_per_face() -> Check:
 
 @claim("kovalevsky-schulz.100")
 def memory_requirements() -> Check:
-    """Check that the printed cell lists need fewer integers than Marching Cubes, but not always than the hull's
-    triangles.
-
-    Formula (6) gives the number V of vertices from the number of integers; a hull has 2 V - 4 triangles.
-    """
     tables = printed_lines(PAPER)
     fewer, more = [], {}
+    # Formula (6) gives the number V of vertices from the number of integers. A hull has 2 V - 4 triangles.
     for row in half_balls():
         own = triangulation_size(2 * int(row.corners) - 4)
         fewer.append(row.integers < row.triangle_integers)
@@ -56,19 +57,18 @@ def memory_requirements() -> Check:
 
 
 def _bodies() -> tuple[list[CellList], list[CellList]]:
-    """Return the cell lists of the half-balls, with the points on straight edges and without them."""
     bodies = [half_ball_cells(row.diameter) for row in half_balls()]
     return bodies, [straightened(cells) for cells in bodies]
 
 
+def _size(cells: CellList) -> int:
+    return cell_list_size(len(cells.vertices), len(cells.faces))
+
+
 @claim("kovalevsky-schulz.84")
 def integers_of_table_4() -> Check:
-    """Check that the printed 495 integers are those of formula (6), and that the cell list of such a hull has fewer.
-
-    By Euler's formula the hull has V + F - 2 edges, each of which is on two faces. The list therefore has 3 V + 2 E
-    integers, or F more if it also has the number of vertices of each face.
-    """
-    faces, vertices, integers = map(int, re.findall(r"\d+", printed_lines(PAPER)["table4-hull"][0]))
+    faces, vertices, integers = numbers_in(printed_lines(PAPER)["table4-hull"][0])
+    # Euler's formula gives the number of edges, each of which is on two faces.
     edges = vertices + faces - 2
     exact = 3 * vertices + 2 * edges
     counted = all(economical_size(c) == 3 * len(c.vertices) + 2 * len(c.edges) for bodies in _bodies() for c in bodies)
@@ -79,7 +79,6 @@ def integers_of_table_4() -> Check:
 
 @claim("kovalevsky-schulz.80")
 def vertices_of_a_face() -> Check:
-    """Check that the half-balls' faces have about five points on average, but only about four vertices."""
     means = []
     for bodies in _bodies():
         points, faces = [sum(len(f.vertices) for f in c.faces) for c in bodies], [len(c.faces) for c in bodies]
@@ -91,25 +90,85 @@ def vertices_of_a_face() -> Check:
 
 @claim("kovalevsky-schulz.81")
 def formula_6() -> Check:
-    """Check that formula (6) is wrong by less than 5 % for the half-balls together, but by more without some points."""
-    all_points, only_vertices = (
-        sum(cell_list_size(len(c.vertices), len(c.faces)) for c in bodies) / sum(map(economical_size, bodies))
-        for bodies in _bodies()
-    )
-    check = exhibited(abs(all_points - 1) < 0.05, f"{all_points:.3f} times the exact number of integers")
-    ten = half_ball_cells(10)
-    alone = cell_list_size(len(ten.vertices), len(ten.faces)) / economical_size(ten)
-    case = (
-        f"cell lists of vertices only, {only_vertices:.3f} times, and diameter 10, {alone:.2f} times the exact number"
-    )
-    return check.unless(only_vertices > 1.1 and alone > 1.2, case)
+    groups = (*_bodies(), [half_ball_cells(10)])
+    points, vertices, alone = (sum(map(_size, group)) / sum(map(economical_size, group)) for group in groups)
+    check = exhibited(abs(points - 1) < 0.05, f"{points:.3f} times the exact number of integers")
+    case = f"cell lists of vertices only, {vertices:.3f} times, and diameter 10, {alone:.2f} times the exact number"
+    return check.unless(vertices > 1.1 and alone > 1.2, case)
 
 
 @claim("kovalevsky-schulz.157")
 def edges_at_vertex() -> Check:
-    """Check that the apex of a pyramid has as many edges as its base has sides, for 3 to 20 sides."""
     outcomes = []
     for sides in range(3, 21):
         pyramid = polyhedron([*((k, k * k, 0) for k in range(sides)), (0, 0, 1)])
         outcomes.append(max(len(vertex.edges) for vertex in merged(pyramid).vertices) == sides)
     return exhibited(all(outcomes), f"in {len(outcomes)} pyramids, the apex has as many edges as the base has sides")
+
+
+def _row(diameter: int) -> HalfBall:
+    return next(row for row in half_balls() if row.diameter == diameter)
+
+
+@claim("kovalevsky-schulz.86")
+def diameter_8() -> Check:
+    row = _row(8)
+    possible = may_be_convex(int(row.corners), row.faces) or row.has_quarter_turns()
+    message = f"(6) implies {row.corners} vertices with {row.faces} faces, which allow {2 * row.faces - 4}; "
+    return refuted(not possible, f"{message}quarter turns move all vertices but one in groups of 4")
+
+
+@claim("kovalevsky-schulz.87", diameter=10)
+@claim("kovalevsky-schulz.89", diameter=14)
+@claim("kovalevsky-schulz.90", diameter=16)
+@claim("kovalevsky-schulz.179", diameter=18)
+@claim("kovalevsky-schulz.92", diameter=20)
+@claim("kovalevsky-schulz.93", diameter=22)
+def row_of_table_5(diameter: int) -> Check:
+    row, cells = _row(diameter), half_ball_cells(diameter)
+    hull = straightened(cells)
+    agrees = (len(cells.faces), _size(cells)) == (row.faces, row.integers) and row.has_quarter_turns()
+    message = f"{len(cells.faces)} faces and {len(cells.vertices)} points give {_size(cells)} integers by formula (6)"
+    centred = len(half_ball_cells(diameter, "voxel").faces)
+    case = f"a half-ball centred on a voxel, which has {centred} faces"
+    if hull != cells:
+        case += f", and the {len(hull.vertices)} vertices of the strict hull, which give {_size(hull)} integers"
+    case += f"; the cell list itself has {economical_size(cells)} integers"
+    is_formula = row.integers not in (economical_size(cells), economical_size(hull))
+    refutes = centred != row.faces and is_formula and (hull == cells or _size(hull) != row.integers)
+    return exhibited(agrees, message).unless(refutes, case)
+
+
+@claim("kovalevsky-schulz.88")
+def diameter_12() -> Check:
+    row, around = _row(12), product(range(-5, 7), range(-5, 7), range(7))
+    voxels = [(x, y, z) for x, y, z in around if (2 * x - 1) ** 2 + (2 * y - 1) ** 2 + (2 * z) ** 2 <= 12**2]
+    hull = exact_hull(local_corners(listed(voxels), VERTICES))
+    size = cell_list_size(len(hull.vertices), len(hull.facets))
+    agrees = (len(hull.facets), size) == (row.faces, row.integers)
+    message = f"{len(hull.facets)} faces and {len(hull.vertices)} vertices give {size} integers by formula (6)"
+    others = half_ball_cells(12)
+    cells = voxel_hull(listed(voxels), neighbours=6, coplanar=INVISIBLE).polyhedron.faces
+    exact = 3 * len(hull.vertices) + sum(len(facet.polygon) for facet in hull.facets)
+    case = f"the half-ball centred on a corner of voxels, which has {len(others.faces)} faces; points on straight "
+    case += f"edges, with which {len(cells.vertices)} points give {_size(cells)} integers; and the cell list itself, "
+    case += f"which has {exact}"
+    refutes = len(others.faces) != row.faces and row.integers not in (exact, _size(cells))
+    return exhibited(agrees, message).unless(refutes, case)
+
+
+@claim("kovalevsky-schulz.96")
+def symmetric_faces() -> Check:
+    points = [vertex.point for vertex in half_ball_cells(10).vertices]
+    faces = exact_hull(points).facets
+    asymmetric = sum(not _is_symmetric([points[k] for k in facet.polygon]) for facet in faces)
+    return refuted(asymmetric > 0, f"{asymmetric} of {len(faces)} faces at the diameter 10 have no symmetry")
+
+
+def _is_symmetric(ring: list[Point]) -> bool:
+    n = len(ring)
+    sides = [minus(ring[(k + 1) % n], ring[k]) for k in range(n)]
+    marks = [(dot(sides[k], sides[k]), dot(sides[k], sides[(k + 1) % n])) for k in range(n)]
+    back = [(dot(sides[-k], sides[-k]), dot(sides[-k], sides[-k - 1])) for k in range(n)]
+    turns = any(marks == marks[k:] + marks[:k] for k in range(1, n))
+    return turns or any(marks == back[k:] + back[:k] for k in range(n))

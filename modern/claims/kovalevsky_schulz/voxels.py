@@ -13,7 +13,7 @@ from modern.claims.hulls import convex_polyhedron, exact_hull
 from modern.claims.invariants import numbers_of_ball
 from modern.claims.sampled_sets import Point, counterexample_points, plane_value
 from modern.digital.solids import VERTEX, VOXEL, ball, listed
-from modern.geometry.vectors import dot
+from modern.geometry.vectors import dot, minus, plus
 from modern.papers.kovalevsky_schulz import CENTRES, INVISIBLE, VERTICES, VISIBLE, local_corners
 from modern.papers.kovalevsky_schulz.corners import Of
 from modern.papers.kovalevsky_schulz.polyhedron import Coplanar
@@ -21,8 +21,8 @@ from modern.papers.kovalevsky_schulz.results import hull_of_ball
 
 Voxels = tuple[Point, ...]
 KINDS: tuple[Of, ...] = (CENTRES, VERTICES)
-STEPS: Voxels = tuple((x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1))
-DIRECTIONS = [step for step in product((-1, 0, 1), repeat=3) if any(step)]
+STEPS: Voxels = tuple((x, y, z) for x, y, z in product((0, 1), repeat=3))
+DIRECTIONS: Voxels = tuple((x, y, z) for x, y, z in product((-1, 0, 1), repeat=3) if (x, y, z) != (0, 0, 0))
 
 
 def _draw_solid(random: Random) -> Voxels:
@@ -38,8 +38,6 @@ def local(solid: Voxels, of: Of = CENTRES, neighbours: int = 26) -> set[Point]:
 
 @claim("kovalevsky-schulz.125", full=2_000)
 def vertices_among_local_corners(cases: int = 3) -> Check:
-    """Check that each vertex of the hull of a set of voxels, or of their corners, is a local corner of the set."""
-
     def among(solid: Voxels) -> bool:
         sets = ((points_of(solid, of), of) for of in KINDS)
         return all({points[k] for k in exact_hull(points).vertices} <= local(solid, of) for points, of in sets)
@@ -49,7 +47,6 @@ def vertices_among_local_corners(cases: int = 3) -> Check:
 
 @claim("kovalevsky-schulz.11", full=2_000)
 def hull_of_few_voxels(cases: int = 3) -> Check:
-    """Check that the local corners have the hull of the set, and that all voxels of a set can be local corners."""
     zigzag: Voxels = tuple((x, x % 2, 0) for x in range(20))
     check = vertices_among_local_corners(cases)
     return check.unless(local(zigzag) == {*zigzag}, "a zigzag of 20 voxels, which are all local corners")
@@ -57,7 +54,6 @@ def hull_of_few_voxels(cases: int = 3) -> Check:
 
 @claim("kovalevsky-schulz.23")
 def local_corner_inside_hull() -> Check:
-    """Check the counterexample: a voxel that passes the test of 13 pairs is inside the triangle of three neighbours."""
     *around, middle = points = tuple(counterexample_points("tripod.csv"))
     near = all(max(abs(a - b) for a, b in zip(p, middle, strict=True)) == 1 for p in around)
     wrong = middle in local(points) and near and len(around) not in exact_hull(points).vertices
@@ -66,43 +62,35 @@ def local_corner_inside_hull() -> Check:
 
 @claim("kovalevsky-schulz.18", full=4_000)
 def fewer_corners_with_more_neighbours(cases: int = 5) -> Check:
-    """Check that each local corner by a test of 26 neighbours is also a local corner by a test of 6."""
     message = "local corners by 26 neighbours are local corners by 6"
     return search(SOLIDS, lambda solid: local(solid) <= local(solid, CENTRES, 6), cases, message)
 
 
 @claim("kovalevsky-schulz.34", full=4_000)
 def local_corners_of_vertices(cases: int = 5) -> Check:
-    """Check that the program finds the corners of voxels that are halfway between none of 13 pairs of neighbours."""
-
     def agrees(solid: Voxels) -> bool:
         points = _corners(solid)
-        between = {
-            (x, y, z)
-            for x, y, z in points
-            if any({(x + i, y + j, z + k), (x - i, y - j, z - k)} <= points for i, j, k in DIRECTIONS)
-        }
+        between = {p for p in points if any({plus(p, d), minus(p, d)} <= points for d in DIRECTIONS)}
         return local(solid, VERTICES) == points - between
 
     return search(SOLIDS, agrees, cases, "exactly the corners between no two opposite neighbours are found")
 
 
 def _corners(solid: Voxels) -> set[Point]:
-    return {(x + i, y + j, z + k) for x, y, z in solid for i, j, k in STEPS}
+    return {plus(voxel, step) for voxel in solid for step in STEPS}
 
 
 def points_of(solid: Voxels, of: Of) -> Voxels:
     return solid if of == CENTRES else tuple(_corners(solid))
 
 
-def triangles_of_ball(coplanar: Coplanar) -> int:
-    """Return the number of triangles of the hull of the ball of diameter 32."""
-    return len(hull_of_ball(32, coplanar).polyhedron.triangles.faces)
+def _triangles(corners: Iterable[Iterable[int]], coplanar: Coplanar = INVISIBLE) -> int:
+    """Return the number of triangles of the hull of corners that are added in this order."""
+    return len(convex_polyhedron(corners, coplanar).faces)  # type: ignore[union-attr]
 
 
 @claim("kovalevsky-schulz.20")
 def voxels_of_ball() -> Check:
-    """Check that a ball of diameter 32 has the printed number of voxels if it is centred on a voxel and closed."""
     printed, numbers = numbers_of_ball()[0], [ball(32, centre).count for centre in (VOXEL, VERTEX)]
     inner = sum(dot(voxel, voxel) < 16**2 for voxel in ball(32).coordinates().tolist())
     check = exhibited(numbers[0] == printed, f"the ball centred on a voxel has {numbers[0]} voxels")
@@ -112,7 +100,6 @@ def voxels_of_ball() -> Check:
 
 @claim("kovalevsky-schulz.21")
 def numbers_of_local_corners() -> Check:
-    """Check that the printed 776 and 360 count local corners among corners of voxels, not among voxels."""
     corners, voxels = ([len(local_corners(ball(32), of, n)) for n in (6, 26)] for of in (VERTICES, CENTRES))
     message = f"the corners of voxels have {corners[0]} and {corners[1]} local corners"
     moved = [len(local_corners(ball(32, VERTEX), VERTICES, n)) for n in (6, 26)]
@@ -124,11 +111,8 @@ def numbers_of_local_corners() -> Check:
 
 @claim("kovalevsky-schulz.62")
 def printed_triangles() -> Check:
-    """Check that visible coplanar faces give fewer triangles than printed in any order, and invisible ones do not.
-
-    Each point in the plane of a face that counts as visible replaces the triangles of this plane, so that at most one
-    point remains inside the face: the one that was inserted last.
-    """
+    # Each point in the plane of a face that counts as visible replaces the triangles of this plane. So at most one
+    # point remains inside the face: the one that was inserted last.
     printed, corners = numbers_of_ball()[3], local_corners(ball(32), VERTICES, 6).tolist()
     faces = exact_hull(corners).facets
     on_faces = [[k for k, p in enumerate(corners) if plane_value(f.plane, p) == 0] for f in faces]
@@ -136,23 +120,19 @@ def printed_triangles() -> Check:
     replaced = sum(max(0, sum(faces_at[k] == 1 for k in on_face) - 1) for on_face in on_faces)
     most = 2 * (len(faces_at) - replaced) - 4
     message = f"with visible coplanar faces the ball has at most {most} triangles in any order; printed: {printed}"
-    return refuted(most < printed == triangles_of_ball(INVISIBLE), message)
+    return refuted(most < printed == _triangles(corners), message)
 
 
 @claim("kovalevsky-schulz.64")
 def printed_faces() -> Check:
-    """Check that four conditions give the printed triangles and faces: ball, corners, their order, and visibility.
-
-    Each change of one condition must give another number of triangles.
-    """
     hull = hull_of_ball(32, INVISIBLE).polyhedron
     numbers = [len(hull.triangles.faces), len(hull.faces.faces)]
     corners, fewer, moved = (
-        [(x, y, z) for x, y, z in local_corners(ball(32, centre), VERTICES, neighbours).tolist()]
+        local_corners(ball(32, centre), VERTICES, neighbours).tolist()
         for centre, neighbours in ((VOXEL, 6), (VOXEL, 26), (VERTEX, 6))
     )
     others = {
-        "visible coplanar faces": triangles_of_ball(VISIBLE),
+        "visible coplanar faces": _triangles(corners, VISIBLE),
         "a random order of the corners": _triangles(Random(1).sample(corners, len(corners))),
         f"{len(fewer)} corners": _triangles(fewer),
         "a ball centred on a corner of voxels": _triangles(moved),
@@ -162,15 +142,8 @@ def printed_faces() -> Check:
     return check.unless(numbers[0] not in others.values(), case)
 
 
-def _triangles(corners: Iterable[Point]) -> int:
-    """Return the number of triangles of the hull of corners, added in this order, if coplanar faces are invisible."""
-    return len(convex_polyhedron(corners, INVISIBLE).faces)  # type: ignore[union-attr]
-
-
 @claim("kovalevsky-schulz.12", full=1_000)
 def corners_against_centres(cases: int = 2) -> Check:
-    """Check that the hull of the voxels' corners contains the centres and is the hull of unit cubes about them."""
-
     def agrees(solid: Voxels) -> bool:
         outer = exact_hull(sorted(_corners(solid)))
         vertices = [solid[k] for k in exact_hull(solid).vertices]
@@ -185,7 +158,6 @@ def corners_against_centres(cases: int = 2) -> Check:
 
 @claim("kovalevsky-schulz.28")
 def corner_of_single_voxel() -> Check:
-    """Check the counterexample: corners of a single voxel that are no local corners by a test of 6 neighbours."""
     voxels = tuple(counterexample_points("two_voxels.csv"))
     corners = local(voxels, VERTICES, 6)
     single = {c for c in _corners(voxels) if sum(c in _corners((v,)) for v in voxels) == 1}
@@ -196,7 +168,6 @@ def corner_of_single_voxel() -> Check:
 
 @claim("kovalevsky-schulz.155", "kovalevsky-schulz.154")
 def corners_of_eight_voxels() -> Check:
-    """Check for subsets of eight voxels that their common corner is a local corner of a single voxel only."""
     # By symmetry the first voxel can be in every subset.
     subsets = [(STEPS[0], *rest) for n in range(8) for rest in combinations(STEPS[1:], n)]
     # The edges of the first voxel at (1, 1, 1) continue to these corners if they belong to another voxel.
