@@ -97,7 +97,7 @@ def algorithm_as_printed(name: str) -> Check:
     array = array_of(counterexample_points(f"yau_{name}.csv"))
     wrong, right = octree_hull(array, Printed.only(name)).filled, octree_hull(array).filled
     missing, more = int((right & ~wrong).sum()), int((wrong & ~right).sum())
-    message = f"{missing} of the {int(right.sum())} voxels of the hull are missing, and {more} others are added"
+    message = f"as printed, the algorithm misses {missing} of the {int(right.sum())} voxels of the hull and adds {more}"
     return refuted(missing or more, message)
 
 
@@ -130,7 +130,7 @@ def digital_hull_by_envelopes(cases: int = 3) -> Check:
 def corrected_step(names: str, cases: int = 2) -> Check:
     """Check that the corrected algorithm gives the digital points of the hull, but no step as printed alone does."""
     as_printed = {name: algorithm_as_printed(name) for name in names.split()}
-    case = "; ".join(f"{name} as printed: {step.message}" for name, step in as_printed.items())
+    case = "; ".join(f"{name}: {step.message}" for name, step in as_printed.items())
     return envelopes_against_judge(cases).unless(not any(step.holds for step in as_printed.values()), case)
 
 
