@@ -190,7 +190,7 @@ def scene_of_solids(scene: str) -> Check:
     """Check that n convex solids can have the printed vertices V and faces F: V <= 2 F - 4 n and F <= 2 V - 4 n."""
     solids, corners, faces, _ = counts_in_table_1(scene)
     possible = corners <= 2 * faces - 4 * solids and faces <= 2 * corners - 4 * solids and corners >= 4 * solids
-    return satisfied(f"Table 1 ({scene})", [("solids", possible)])
+    return satisfied(f"Table 1 ({scene})", [("possible numbers of vertices and faces", possible)])
 
 
 @claim("appel-will.20")
