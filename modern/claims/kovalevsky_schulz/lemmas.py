@@ -9,15 +9,7 @@ from modern.claims.hulls import exact_hull
 from modern.claims.kovalevsky_schulz.polyhedra import OUTSIDE, growing_polyhedra, horizon, hulls, polyhedron
 from modern.claims.kovalevsky_schulz.proofs import formula_4, lemma_be, lemma_ch, lemma_lz
 from modern.claims.kovalevsky_schulz.voxels import KINDS, SOLIDS, Voxels, local, points_of
-from modern.claims.sampled_sets import (
-    CASES,
-    SETS,
-    Plane,
-    Point,
-    counterexample_points,
-    is_closed_curve,
-    plane_value,
-)
+from modern.claims.sampled_sets import CASES, SETS, Plane, Point, counterexample_points, is_closed_curve, plane_value
 from modern.digital.solids import listed
 from modern.exact_hull import ExactHull
 from modern.geometry.vectors import cross, dot, minus
@@ -36,9 +28,8 @@ def smaller_polyhedron(vertices: str) -> Check:
     if vertices == "moved":
         return refuted(wrong, f"{message}, but not one of its vertices")
     four = [p for p in product((0, 1), repeat=3) if sum(p) % 2 == 0]
-    return refuted(
-        wrong and exact_hull(four).dimension == 3, f"{message}, like all of four alternate corners of a cube"
-    )
+    wrong = wrong and exact_hull(four).dimension == 3
+    return refuted(wrong, f"{message}, like all of four alternate corners of a cube")
 
 
 @claim("kovalevsky-schulz.126", "kovalevsky-schulz.75", full=1_000)
@@ -64,7 +55,7 @@ def proof_of_the_algorithm(cases: int = CASES) -> Check:
 
 
 def _planes_at(edge: tuple[int, int], judge: ExactHull, new: Point) -> list[Plane]:
-    """Return the outward planes of the faces at an edge of a hull; the new point is farthest outside of the last."""
+    """Return the outward planes of the two faces at an edge of a hull, sorted by their values at the new point."""
     return sorted((f.plane for f in judge.facets if {*edge} <= {*f.polygon}), key=lambda f: plane_value(f, new))
 
 
