@@ -67,7 +67,7 @@ def test_formats_and_parentheses_have_a_limited_depth() -> None:
     [
         ("nested parentheses", f"{MAX_NESTING} deep"),
         ("nested loops in a list", "three"),
-        ("nested groups in a FORMAT", "two, within its own parentheses"),
+        ("nested groups in a FORMAT", "two, not counting the parentheses of the FORMAT itself"),
         ("fields of a FORMAT, with repetitions expanded", "2,000"),
         ("width of X and H", f"{MAX_LITERAL} (p. 37, 41); a larger width causes a warning"),
         ("a record", f"{MAX_RECORD} characters (p. 43, 56); a longer record causes a warning"),
