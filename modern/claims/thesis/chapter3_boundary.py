@@ -94,7 +94,7 @@ def _on_side(points: Sequence[Point], ends: tuple[int, ...], k: int) -> bool:
 def planes_at_vertex(cases: int = CASES) -> Check:
     """Check that a vertex lies in three or more planes of the exact hull, and any other point in at most two."""
     checks = []
-    for points in (*(sampled.points for sampled in sampled_sets(3, cases)), tuple(PYRAMID)):
+    for points in (*LATTICE_SETS[3].cases(cases), PYRAMID):
         judge = exact_hull(points)
         for k, point in enumerate(points):
             on = sum(not plane_value(facet.plane, point) for facet in judge.facets)
@@ -102,7 +102,7 @@ def planes_at_vertex(cases: int = CASES) -> Check:
     message = (
         f"{sum(checks)} of {len(checks)} points: a vertex lies in three or more planes, any other point in two or fewer"
     )
-    return searched(SETS[3], cases, checks, message)
+    return searched(LATTICE_SETS[3], cases, checks, message)
 
 
 @claim("thesis.231")

@@ -23,7 +23,7 @@ from modern.claims.sampled_sets import (
     reduced_plane,
     sampled_sets,
 )
-from modern.claims.thesis.chapter3_boundary import PYRAMID
+from modern.claims.thesis.chapter3_boundary import LATTICE_SETS, PYRAMID
 from modern.claims.thesis.chapter3_steps import fourth_point_by_largest, order_of_replacement
 from modern.claims.thesis.chapter4_examples import EXTREMES_IN_A_PLANE
 from modern.edition import programs
@@ -86,7 +86,7 @@ def _indices_on_line(points: Sequence[Point], a: int, b: int) -> list[int]:
 def plane_duplicates_as_printed(cases: int = CASES) -> Check:
     """Check that the text (page 34) keeps the last equation of each plane, whereas the listing keeps the first."""
     checks, differing = [], 0
-    for points in (PYRAMID, *(list(sampled.points) for sampled in sampled_sets(3, cases))):
+    for points in (PYRAMID, *LATTICE_SETS[3].cases(cases)):
         last = convex_hull(points, history=True).history[-1].equations
         planes = [plane_through(points[a], points[b], points[c]) for a, b, c in last]
         # Page 34 removes plane j if it contains the three points of a later plane i.
@@ -104,7 +104,7 @@ def plane_duplicates_as_printed(cases: int = CASES) -> Check:
         f"{sum(checks)} of {len(checks)} sets keep one equation of each plane; in {differing} sets it is not "
         "the one that the listing keeps"
     )
-    return searched(SETS[3], cases, [*checks, differing], message)
+    return searched(LATTICE_SETS[3], cases, [*checks, differing], message)
 
 
 def _unsigned(plane: tuple[int, int, int, int]) -> tuple[int, int, int, int]:

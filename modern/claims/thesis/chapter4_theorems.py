@@ -137,7 +137,11 @@ def lines_of_figure_3() -> Check:
     steps = [Step("the line contains the corner", {}, zero(value)) for value in on]
     steps += [Step("the third corner is inside", signs, positive(-value), (by,)) for value, by in beside]
     argument = "The equations vanish at two corners and are negative at the third if x_1 > 0 and y_1 < y_2"
-    return proved(argument, (step.is_valid() for step in steps), "all three lines are outward")
+    return proved(
+        argument,
+        (step.is_valid() for step in steps),
+        "each of the three lines contains two corners and is negative at the third",
+    )
 
 
 @claim("thesis.141")

@@ -13,9 +13,9 @@ from emulator.language.formats import Literal
 from emulator.language.objectcode import Program
 from emulator.machine.machine import Machine
 from emulator.machine.result import Options
-from modern.claims.evidence import Check, claim, exhibited
+from modern.claims.evidence import Check, claim, exhibited, searched
 from modern.claims.hulls import convex_hull, exact_hull
-from modern.claims.sampled_sets import CASES
+from modern.claims.sampled_sets import BOTH, CASES, flat_and_spatial_sets
 from modern.claims.thesis.chapter3_equations import procedure_against_judge
 from modern.claims.thesis.chapter3_steps import fourth_point_by_largest
 from modern.claims.thesis.chapter3_wording import line_duplicates_as_printed
@@ -42,18 +42,23 @@ MOST_POINTS = 51
 _SPACE = ((1, 2, 3), (2, 1, 5), (4, 4, 1), (3, 9, 2), (7, 1, 1))
 
 
-@claim("thesis.280")
-def error_in_program() -> Check:
-    """Check that ERROR IN PROGRAM can mean a fault of program 3, or that the arithmetic has too few digits."""
+@claim("thesis.280", full=300)
+def error_in_program(cases: int = CASES) -> Check:
+    """Check that ERROR IN PROGRAM means a fault of program 3, unless the arithmetic has too few digits.
+
+    In exact arithmetic, the corrected procedure always ends with a hull.
+    """
     names = ("throughc.deck", "zeroplane.deck")
     ended = [typed(run_of(name)).endswith("ERROR IN PROGRAM") for name in names]
     hulls = [convex_hull([*exact_points(deck_of(name))[0].values()]) for name in names]
     message = (
-        f"program 3 types the message for {names[0]}, whose hull needs {', '.join(hulls[0].corrected)} to be right"
+        "in exact arithmetic, the corrected procedure never ends with the message; program 3 types it for "
+        f"{names[0]}, whose hull needs the correction {', '.join(hulls[0].corrected)}"
     )
-    check = exhibited(ended[0] and hulls[0].corrected, message)
+    outcomes = [procedure_against_judge((2, 3), cases).holds, ended[0] and hulls[0].corrected]
     right = all(ended) and all(hull.determined for hull in hulls) and not hulls[1].corrected
-    return check.unless(right, f"{names[1]}, which has too many digits: in exact arithmetic, no correction is needed")
+    case = f"{names[1]}, which has too many digits: in exact arithmetic, no correction is needed"
+    return searched(BOTH, 2 * cases, outcomes, message).unless(right, case)
 
 
 @claim("thesis.282", full=300)
@@ -74,15 +79,18 @@ def _first_run(exponent: str) -> HullRun:
     return run_hull(deck_from_lines("small", [f"{len(cards):2}", *cards]), programs.program)
 
 
-@claim("thesis.281")
-def points_are_coplanar() -> Check:
-    """Check which sets the program reports as coplanar: points in space too if the squares of differences underflow."""
-    typed_coplanar = [COPLANAR in _first_run(exponent).steps[0].result.typed for exponent in ("E+01", "E-16", "E-17")]
-    flat = exact_hull([*exact_points(deck_of("between.deck"))[0].values()]).dimension == 2
-    right = flat and COPLANAR in run_of("between.deck").steps[0].result.typed and typed_coplanar[:2] == [False, False]
-    check = exhibited(right, "a set in a plane is reported as coplanar, and five points in space are not")
-    wrong = typed_coplanar[2] and exact_hull(_SPACE).dimension == 3
-    return check.unless(wrong, "the same points scaled to about 1E-18, which are reported as coplanar")
+@claim("thesis.281", full=100)
+def points_are_coplanar(cases: int = CASES) -> Check:
+    """Check which sets program 1 reports as coplanar: points in space too if the squares of differences underflow."""
+    checks = []
+    for sampled in flat_and_spatial_sets(cases):
+        run = run_hull(data_deck([[*map(str, point)] for point in sampled.points], "sampled"), programs.program)
+        checks.append((COPLANAR in run.steps[0].result.typed) == bool(sampled.flat))
+    message = f"in {sum(checks)} of {len(checks)} runs, program 1 types the message exactly if the set is flat"
+    typed_coplanar = [COPLANAR in _first_run(exponent).steps[0].result.typed for exponent in ("E+01", "E-17")]
+    wrong = typed_coplanar == [False, True] and exact_hull(_SPACE).dimension == 3
+    case = "five points in space scaled to about 1E-18, which are reported as coplanar"
+    return searched(BOTH, 2 * cases, checks, message).unless(wrong, case)
 
 
 @claim("thesis.178")
