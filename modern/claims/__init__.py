@@ -13,7 +13,8 @@ To add a verdict on a statement:
    ``claim`` that returns a :class:`~modern.claims.evidence.Check`.  Choose the constructor by what is computed:
    ``proved``, ``exhausted``, ``searched`` or ``search``, ``exhibited``, ``refuted``, ``slip``.  Sampled sets and
    counterexamples come from :mod:`modern.claims.sampled_sets`.  With ``full=N`` in ``claim``, the check also has a full
-   search of N cases.  Run ``make claims`` and commit its result in ``transcripts/statements/full.csv``.
+   search of N cases.  Run ``make claims`` and commit its result in ``transcripts/statements/full.csv``.  The row says
+   what the check computes; a docstring is needed only for what the row leaves out.
 3. If the statement needs a condition, compute a case that violates it and refutes the statement, and add
    ``.unless(refutes, "the case")``.
 4. If the verdict is "does not hold", put the smallest counterexample into ``transcripts/counterexamples/`` and name it

@@ -20,7 +20,7 @@ _MOST_HULLS = 1024
 
 
 def _shared(compute: Callable[Concatenate[Any, P], R]) -> Callable[Concatenate[Iterable[Iterable[Any]], P], R]:
-    """Return the function with its last results kept, by the points and the options. The results must be immutable."""
+    """Cache the results of a function by its points and its options. The results must be immutable."""
     kept = lru_cache(_MOST_HULLS)(compute)
 
     @wraps(compute)

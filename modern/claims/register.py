@@ -250,7 +250,10 @@ def judge(statement: Statement, results: Results) -> Judged:
 
 
 def _verdict(check: Check, statement: Statement) -> Verdict:
-    """Return the verdict of a check.  The kind of a slip is a human judgement and is taken from the row."""
+    """Return the verdict of a check.
+
+    A check can prove a misprint, but not whether the OCR or the print made it: this is recorded in the row.
+    """
     if check.holds:
         return CONDITION if check.evidence.violation else HOLDS
     return (statement.verdict if statement.verdict in SLIPS else SLIPS[2]) if check.evidence.correction else FAILS
