@@ -4,12 +4,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import chain, repeat
+from typing import TypeVar
 
 from emulator.errors import EmulatorError
 from modern.geometry.hull import Hull, LazyMembers, polygons_of
 from modern.geometry.numbers import Point, coordinates, decimal_text
 from modern.geometry.vectors import Vector, area_vector, dot
 
+T = TypeVar("T")
 Triangle = tuple[int, int, int]
 
 
@@ -110,7 +112,7 @@ def mesh(hull: Hull) -> Mesh:
     return Mesh(hull.dimension, points, tuple(polygons))
 
 
-def sides(face: Sequence[int]) -> Iterator[tuple[int, int]]:
+def sides(face: Sequence[T]) -> Iterator[tuple[T, T]]:
     """Yield the edges of a face as pairs of vertices, in the face's order."""
     return zip(face, (*face[1:], face[0]), strict=True)
 

@@ -1,12 +1,11 @@
 """Checks of Appel and Will: properties of convex polyhedra, their two-dimensional methods, and steps as printed."""
 
 import math
-from collections import Counter
 from collections.abc import Iterable, Sequence
-from itertools import combinations, pairwise, product
+from functools import partial
+from itertools import combinations, product
 from random import Random
 
-from modern.claims.appel_will.proofs import least_surface
 from modern.claims.evidence import Check, Generator, claim, exhausted, exhibited, refuted, search, searched, slip
 from modern.claims.hulls import exact_hull
 from modern.claims.sampled_sets import (
@@ -19,6 +18,7 @@ from modern.claims.sampled_sets import (
     sampled_sets,
 )
 from modern.exact_hull import ExactHull
+from modern.geometry.mesh import sides
 from modern.geometry.vectors import cross, dot, minus
 from modern.papers.appel_will import CORRECTED, Method, appel_will, printed
 from modern.papers.appel_will.star import as_corrected, as_printed, project, vorticity
@@ -32,9 +32,13 @@ def area(p: Flat, q: Flat, r: Flat) -> int:
     return vorticity((q[0] - p[0], q[1] - p[1]), (r[0] - p[0], r[1] - p[1]))
 
 
+def turns(ring: Sequence[Flat]) -> list[int]:
+    """Return, for each corner of a polygon, a number that is positive if the polygon turns left there."""
+    return [area(ring[k - 1], corner, ring[(k + 1) % len(ring)]) for k, corner in enumerate(ring)]
+
+
 @claim("appel-will.1", full=300)
 def corrected_method(cases: int = CASES) -> Check:
-    """Check that the method finds the exact hull if Fig. 12 and the steps 9 and 10 are corrected, and only then."""
     check = method_against_judge(cases, printed("step3", "step5", "step7"))
     wrong = [star_as_captioned(), step_as_printed("step9"), step_as_printed("step10")]
     case = "the star test as in the caption of Fig. 12, and by the steps 9 and 10 as printed"
@@ -44,12 +48,12 @@ def corrected_method(cases: int = CASES) -> Check:
 @claim("appel-will.67", "appel-will.68", "appel-will.98", full=300)
 @claim("appel-will.36", "appel-will.116", "appel-will.120", "yau-srihari.112", full=300)
 def method_against_judge(cases: int = CASES, method: Method = CORRECTED) -> Check:
-    """Check that the corrected method finds the edges and faces of the exact hull, with each edge in two loops."""
     checks = []
     for sampled in sampled_sets(3, cases):
         hull = appel_will(sampled.points, method=method)
         # A face is compared by its sides, so that the order of its points counts.
-        faces, loops = ({*map(_sides, rings)} for rings in ((f.polygon for f in sampled.judge.facets), hull.surfaces))
+        rings = [facet.polygon for facet in sampled.judge.facets], hull.surfaces
+        faces, loops = ({frozenset(map(frozenset, sides(ring))) for ring in part} for part in rings)
         checks.append(hull.edges == sampled.judge.edges() and loops == faces)
         checks.append(hull.table.closed)
         # Each point of the map is an end of two neighbouring lines of its loop.
@@ -60,27 +64,18 @@ def method_against_judge(cases: int = CASES, method: Method = CORRECTED) -> Chec
     return searched(SETS[3], cases, checks, message)
 
 
-def _sides(ring: Sequence[int]) -> frozenset[frozenset[int]]:
-    return frozenset(map(frozenset, zip(ring, (*ring[1:], ring[0]), strict=True)))
-
-
-def _hulls(cases: int = CASES) -> list[tuple[tuple[Point, ...], ExactHull]]:
-    return [(sampled.points, sampled.judge) for sampled in sampled_sets(3, cases)]
-
-
 @claim("appel-will.9", full=400)
 def corners_of_convex_polygon(cases: int = CASES) -> Check:
-    """Check that all corners of each convex polygon turn in the same direction."""
     checks = []
     for sampled in sampled_sets(2, cases):
         ring = [sampled.points[k][:2] for k in sampled.judge.polygon]
-        turns = [area(ring[k - 2], ring[k - 1], ring[k]) for k in range(len(ring))]
-        checks.append(len({turn > 0 for turn in turns}) == 1 and 0 not in turns)
+        checks.append(len({turn > 0 for turn in turns(ring)}) == 1 and 0 not in turns(ring))
     return searched(SETS[2], cases, checks, f"all corners of each of {len(checks)} polygons turn the same way")
 
 
-def _draw_ring(random: Random) -> tuple[Flat, ...]:
-    return tuple((random.randint(0, 6), random.randint(0, 6)) for _ in range(random.randint(4, 8)))
+def draw_points(random: Random, count: tuple[int, int], coordinates: tuple[int, int]) -> tuple[Flat, ...]:
+    """Draw points in the plane; their number and their coordinates are between the given limits."""
+    return tuple((random.randint(*coordinates), random.randint(*coordinates)) for _ in range(random.randint(*count)))
 
 
 # A corridor that winds around itself; in the end its outer wall remains, all points of which are convex.
@@ -89,31 +84,29 @@ SPIRAL: tuple[Flat, ...] = (
     *((3, 4), (3, 3), (1, 3), (1, 5), (5, 5), (5, 1), (-1, 1)),
 )
 RINGS: Generator[tuple[Flat, ...]] = Generator(
-    "simple polygons of 4 to 8 corners on a grid of 7 by 7", 4, _draw_ring, lambda r: len(r) > 3 and _simple(r)
+    "simple polygons of 4 to 8 corners on a grid of 7 by 7",
+    4,
+    partial(draw_points, count=(4, 8), coordinates=(0, 6)),
+    lambda ring: len(ring) > 3 and _simple(ring),
 )
 
 
 @claim("appel-will.10", full=20_000)
 def deletion_passes(cases: int = 8) -> Check:
-    """Check that passes that delete all nonconvex points end with the hull, unless sides cross after a pass."""
+    def sides_cross(ring: tuple[Flat, ...]) -> bool:
+        return any(map(_crosses, _passes(ring)))
 
-    def ends_as_hull(ring: Sequence[Flat]) -> bool:
+    def ends_as_hull(ring: tuple[Flat, ...]) -> bool:
         return {*_passes(ring)[-1]} == {ring[k] for k in exact_hull([(x, y, 0) for x, y in ring]).vertices}
 
-    def has_property(ring: tuple[Flat, ...]) -> bool:
-        return any(map(_crosses, _passes(ring))) or ends_as_hull(ring)
-
-    check = search(RINGS, has_property, cases, "each polygon ends as its hull")
-    case = (
-        f"a spiral of {len(SPIRAL)} points, which ends as a polygon of {len(_passes(SPIRAL)[-1])} that crosses itself"
-    )
-    is_violation = _simple(SPIRAL) and any(map(_crosses, _passes(SPIRAL)))
-    return check.unless(is_violation and not ends_as_hull(SPIRAL), case)
+    check = search(RINGS, lambda r: sides_cross(r) or ends_as_hull(r), cases, "each polygon ends as its hull")
+    end = len(_passes(SPIRAL)[-1])
+    case = f"a spiral of {len(SPIRAL)} points, which ends as a polygon of {end} that crosses itself"
+    return check.unless(_simple(SPIRAL) and sides_cross(SPIRAL) and not ends_as_hull(SPIRAL), case)
 
 
 @claim("appel-will.11")
 def deletion_makes_nonconvex() -> Check:
-    """Check a polygon in which deleting a nonconvex point makes a convex neighbour nonconvex."""
     ring = [(0, 0), (10, 0), (10, 10), (6, 1), (5, 5), (4, 1), (0, 10)]
     before = _convex_points(ring)
     lost = sorted({*before} - {*_convex_points(before)})
@@ -122,7 +115,7 @@ def deletion_makes_nonconvex() -> Check:
 
 
 def _convex_points(ring: Sequence[Flat]) -> list[Flat]:
-    return [p for k, p in enumerate(ring) if area(ring[k - 1], p, ring[(k + 1) % len(ring)]) > 0]
+    return [p for p, turn in zip(ring, turns(ring), strict=True) if turn > 0]
 
 
 def _passes(ring: Sequence[Flat]) -> list[list[Flat]]:
@@ -132,29 +125,19 @@ def _passes(ring: Sequence[Flat]) -> list[list[Flat]]:
 
 
 def _crosses(ring: Sequence[Flat]) -> bool:
-    """Return True if two sides that are not neighbours meet."""
-    n = len(ring)
-    sides = [(ring[k], ring[(k + 1) % n]) for k in range(n)]
-    apart = ((i, j) for i, j in combinations(range(n), 2) if j - i not in (1, n - 1))
-    return any(
-        area(*sides[i], sides[j][0]) * area(*sides[i], sides[j][1]) <= 0
-        and area(*sides[j], sides[i][0]) * area(*sides[j], sides[i][1]) <= 0
-        for i, j in apart
-    )
+    """Return True if two sides of a polygon of distinct points meet that are not neighbours."""
+    apart = ((p, q, r, s) for (p, q), (r, s) in combinations(sides(ring), 2) if q != r and s != p)
+    return any(area(p, q, r) * area(p, q, s) <= 0 and area(r, s, p) * area(r, s, q) <= 0 for p, q, r, s in apart)
 
 
 def _simple(ring: Sequence[Flat]) -> bool:
     """Return True if a polygon is counterclockwise and no sides meet except neighbours at their common end."""
-    is_counterclockwise = sum(area((0, 0), ring[k - 1], ring[k]) for k in range(len(ring))) > 0
+    is_counterclockwise = sum(vorticity(p, q) for p, q in sides(ring)) > 0
     return len({*ring}) == len(ring) and not _crosses(ring) and is_counterclockwise
 
 
 @claim("appel-will.15", full=400)
 def start_of_jarvis(cases: int = CASES) -> Check:
-    """Check that the first point of Jarvis's method is on the hull if the origin is below the set, and only then.
-
-    The angle runs from 0 to 360 degrees about an origin outside the set.
-    """
     checks = []
     for sampled in sampled_sets(2, cases):
         below = (0, min(y for _, y, _ in sampled.points) - 1)
@@ -179,8 +162,7 @@ def _smallest_angle(origin: Flat, points: Sequence[Point]) -> int:
 @claim("appel-will.29", "appel-will.66", number="3", full=400)
 @claim("appel-will.30", "nakamae-nishita.63", number="4", full=400)
 def polyhedron_property(number: str, cases: int = 2 * CASES) -> Check:
-    """Check one of the paper's numbered properties of convex polyhedra on exact hulls."""
-    checks = [right for points, judge in _hulls(cases) for right in _PROPERTIES[number](points, judge)]
+    checks = [right for s in sampled_sets(3, cases) for right in _PROPERTIES[number](s.points, s.judge)]
     return searched(SETS[3], cases, checks, f"all {len(checks)} conditions of the property hold")
 
 
@@ -207,47 +189,18 @@ def _faces(points: Sequence[Point], judge: ExactHull) -> list[bool]:
     checks = []
     for facet in judge.facets:
         ring = [points[k] for k in facet.polygon]
-        for p, q in pairwise([*ring, ring[0]]):
+        for p, q in sides(ring):
             # All other corners are to the left of each side.
-            turns = [dot(cross(minus(q, p), minus(r, p)), facet.plane[:3]) for r in ring if r not in (p, q)]
-            checks.append(min(turns) > 0)
+            normals = [cross(minus(q, p), minus(r, p)) for r in ring if r not in (p, q)]
+            checks.append(min(dot(normal, facet.plane[:3]) for normal in normals) > 0)
     return checks
 
 
 _PROPERTIES = {"2": _cones, "3": _dihedral, "4": _faces}
 
 
-# The number of cubes in each of the three arms of a star.
-ARM = 9
-
-
-@claim("appel-will.33")
-def surface_of_star() -> Check:
-    """Prove that the hull has the least surface of all convex bodies, and check that a star has less than its hull."""
-    cubes = (
-        {(k, 0, 0) for k in range(ARM + 1)} | {(0, k, 0) for k in range(ARM + 1)} | {(0, 0, k) for k in range(ARM + 1)}
-    )
-    ways = [step for step in product((-1, 0, 1), repeat=3) if sum(map(abs, step)) == 1]
-    # The surface of the star is the number of cube faces with no cube on their other side.
-    star = sum((x + i, y + j, z + k) not in cubes for x, y, z in cubes for i, j, k in ways)
-    around = _surface(sorted({(x + i, y + j, z + k) for x, y, z in cubes for i, j, k in CUBE}))
-    case = f"a star with three arms of cubes, whose surface is {star}, whereas that of its hull is {around:.0f}"
-    return least_surface().check().unless(star < around, case)
-
-
-def _surface(points: list[Point]) -> float:
-    total = 0.0
-    for facet in exact_hull(points).facets:
-        first, *rest = (points[k] for k in facet.polygon)
-        for p, q in pairwise(rest):
-            normal = cross(minus(p, first), minus(q, first))
-            total += math.sqrt(dot(normal, normal)) / 2
-    return total
-
-
 @claim("appel-will.37")
 def number_of_combinations() -> Check:
-    """Check that the number of combinations is N! / (r! (N - r)!); the print lacks the outer brackets."""
     f = math.factorial
     pairs = [(n, r) for n in range(13) for r in range(n + 1)]
     outcomes = [len([*combinations(range(n), r)]) * f(r) * f(n - r) == f(n) for n, r in pairs]
@@ -264,16 +217,13 @@ def holds_origin(images: Iterable[Flat]) -> bool:
 
 @claim("appel-will.40", "appel-will.47", "appel-will.93", full=200)
 def edge_by_star_test(cases: int = 1) -> Check:
-    """Check that a pair is an edge if and only if its image is a corner of all images, as the star test decides.
-
-    If more than two points have this image, only the two outer ones of them can be an edge.
-    """
     checks = []
-    for points, judge in _hulls(cases):
-        edges = {*judge.edges()}
+    for sampled in sampled_sets(3, cases):
+        points, edges = sampled.points, {*sampled.judge.edges()}
         for pair in combinations(range(len(points)), 2):
             projection = project(points, pair, range(len(points)))
             is_corner = not holds_origin(projection.images)
+            # If more than two points have the image of the pair, only the two outer ones of them can be an edge.
             is_edge = is_corner and {*pair} == {projection.line[0], projection.line[-1]}
             checks.append(as_corrected(projection.images) == is_corner and is_edge == (pair in edges))
     return searched(SETS[3], cases, checks, f"the test is right for all {len(checks)} pairs of points")
@@ -281,7 +231,6 @@ def edge_by_star_test(cases: int = 1) -> Check:
 
 @claim("appel-will.48", "yau-srihari.12", full=200)
 def edge_by_image(cases: int = 1) -> Check:
-    """Check the test of a pair by its image, and that it rejects an edge with a third point on its line."""
     points = [(0, 0, 0), (2, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4)]
     pair = (0, 2)
     # A third point on the line has the image of the pair, so that this image is in the hull of the other images.
@@ -292,13 +241,11 @@ def edge_by_image(cases: int = 1) -> Check:
 
 @claim("appel-will.54", "appel-will.142", full=200)
 def corrected_star_test(cases: int = 1) -> Check:
-    """Check that the star polygon test finds the edges, but not with the rule in the caption of Fig. 12."""
     return edge_by_star_test(cases).unless(not star_as_captioned().holds, "the test as in the caption of Fig. 12")
 
 
 @claim("appel-will.59")
 def star_as_captioned() -> Check:
-    """Check that the star polygon test, as in the caption of Fig. 12, finds an edge that the hull does not have."""
     points = counterexample_points("one_ray.csv")
     wrong = {*appel_will(points, method=Method(star=as_printed)).edges} - {*exact_hull(points).edges()}
     pairs = ", ".join(f"{points[a]} to {points[b]}" for a, b in sorted(wrong))
@@ -310,19 +257,14 @@ def star_as_captioned() -> Check:
 @claim("appel-will.107", step="step9")
 @claim("appel-will.108", step="step10")
 def step_as_printed(step: str) -> Check:
-    """Check that a step of the loop algorithm, as the appendix prints it, fails on its counterexample."""
     name = {"step5": "fig14.csv", "step7": "fig23.csv", "step9": "prism.csv", "step10": "fig14.csv"}[step]
-    points = counterexample_points(name)
     also = ("step3",) if step == "step9" else ()
-    as_printed_hull, corrected = (
-        appel_will(points, method=printed(step, *also)),
-        appel_will(points, method=printed(*also)),
-    )
-    same = [loop.entries for loop in as_printed_hull.table.loops] == [loop.entries for loop in corrected.table.loops]
-    message = as_printed_hull.fault or (
-        "the same loops" if same else "the loops come in an order that differs from the printed one"
-    )
-    wrong = as_printed_hull.fault or not same
+    methods = printed(step, *also), printed(*also)
+    hull, corrected = (appel_will(counterexample_points(name), method=method) for method in methods)
+    entries, corrected_entries = ([loop.entries for loop in h.table.loops] for h in (hull, corrected))
+    wrong = hull.fault or entries != corrected_entries
+    order = "the loops come in an order that differs from the printed one" if wrong else "the same loops"
+    message = hull.fault or order
     if step == "step9":
         return refuted(wrong and corrected.table.closed, message)
     return slip(not wrong, corrected.table.closed, "step 2" if step == "step10" else "step 3", message)
@@ -330,13 +272,12 @@ def step_as_printed(step: str) -> Check:
 
 @claim("appel-will.96", "appel-will.124", "kovalevsky-schulz.43", "kovalevsky-schulz.158", full=400)
 def planar_graph(cases: int = CASES) -> Check:
-    """Check that the edges of a hull form a planar graph: V - E + F = 2, and a ring of faces around each vertex."""
     checks = []
-    for _, hull in _hulls(cases):
+    for hull in (sampled.judge for sampled in sampled_sets(3, cases)):
         rings = [f.polygon for f in hull.facets]
         checks += [len({*ring}) == len(ring) > 2 for ring in rings]
-        sides = Counter(side for ring in rings for side in zip(ring, (*ring[1:], ring[0]), strict=True))
-        checks.append(set(sides.values()) == {1} and {*sides} == {(b, a) for a, b in sides})
+        directed = [side for ring in rings for side in sides(ring)]
+        checks.append(len({*directed}) == len(directed) and {*directed} == {(b, a) for a, b in directed})
         for vertex in hull.vertices:
             # The edges opposite to a vertex, one in each face, form one ring around it.
             at = [(ring, ring.index(vertex)) for ring in rings if vertex in ring]

@@ -21,15 +21,12 @@ def _sets(cases: int) -> list[tuple[Point, ...]]:
 
 @claim("appel-will.97", full=100)
 def faces_from_graph(cases: int = CASES) -> Check:
-    """Check that the graph of a hull's edges, without coordinates, determines the faces of the hull.
-
-    The graph of a convex polyhedron stays connected if any two vertices are removed. The faces of such a graph are the
-    cycles that have no chord and leave the rest connected (Tutte 1963).
-    """
+    # The graph of a convex polyhedron stays connected if any two vertices are removed. The faces of such a graph are
+    # the cycles that have no chord and leave the rest connected (Tutte 1963).
     checks, faces = [], 0
-    for points in _sets(cases):
-        judge = exact_hull(points)
-        found_faces = {cycle for cycle in _cycles(_graph(judge)) if _connected(_graph(judge), cycle)}
+    for judge in map(exact_hull, _sets(cases)):
+        graph = _graph(judge)
+        found_faces = {cycle for cycle in _cycles(graph) if _connected(graph, cycle)}
         checks.append(found_faces == {frozenset(facet.polygon) for facet in judge.facets})
         faces += len(found_faces)
     return searched(SETS[3], cases, checks, f"{faces} faces of {len(checks)} hulls follow from their edges alone")
@@ -66,14 +63,12 @@ def _connected(graph: Graph, without: frozenset[int]) -> bool:
 
 @claim("appel-will.158", full=200)
 def coplanar_loops(cases: int = CASES) -> Check:
-    """Check that two edges with a common end are on at most one common loop, and that no two loops are coplanar."""
     checks = []
-    for points in _sets(cases):
-        judge = exact_hull(points)
+    for judge in map(exact_hull, _sets(cases)):
         for first_edge, second_edge in combinations(judge.edges(), 2):
-            three = {*first_edge, *second_edge}
-            if len(three) == len(first_edge) + 1:
-                checks.append(sum(three <= {*facet.polygon} for facet in judge.facets) <= 1)
+            points = {*first_edge, *second_edge}
+            if len(points) == 3:
+                checks.append(sum(points <= {*facet.polygon} for facet in judge.facets) <= 1)
         checks.append(len({facet.plane for facet in judge.facets}) == len(judge.facets))
     message = f"in {len(_sets(cases))} hulls, no two edges are on two common loops, and no two loops are coplanar"
     return searched(SETS[3], cases, checks, message)
@@ -81,7 +76,6 @@ def coplanar_loops(cases: int = CASES) -> Check:
 
 @claim("appel-will.32", full=400)
 def outline(cases: int = CASES) -> Check:
-    """Check that the edges that produce the outline of a hull form one closed curve, unless a face is seen edge-on."""
     # The normals of the faces have components of at most 200, so that no face is parallel to this direction.
     eye = (1, 10**3, 10**6)
     outcomes = [is_closed_curve(_on_outline(s.points, s.judge, eye)) for s in sampled_sets(3, cases)]

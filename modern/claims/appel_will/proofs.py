@@ -25,7 +25,6 @@ from modern.claims.evidence import Check, claim
 
 
 def inside_triangle() -> Proof:
-    """Prove that a point is inside a triangle if and only if the sides, seen from it, turn like the triangle."""
     a, b, c, p = (point(name, 2) for name in "abcp")
     area, weights = bracket(a, b, c), (bracket(b, c, p), bracket(c, a, p), bracket(a, b, p))
     combined = [dot(weights, [corner[k] for corner in (a, b, c)]) for k in (0, 1)]
@@ -43,7 +42,6 @@ def inside_triangle() -> Proof:
 
 
 def triangle_area() -> Proof:
-    """Prove that the determinant with the rows x, y, 1 is twice the signed area of a triangle."""
     p, u = point("p", 2), point("u", 2)
     along, height = variables("along height")
     q = tuple(a + b for a, b in zip(p, u, strict=True))
@@ -51,6 +49,7 @@ def triangle_area() -> Proof:
     r = (p[0] + along * u[0] - height * u[1], p[1] + along * u[1] + height * u[0])
 
     def determinant(a: Point, b: Point, c: Point) -> Polynomial:
+        # Each row of the determinant has the coordinates x and y of a point, and 1.
         return a[0] * (b[1] - c[1]) - a[1] * (b[0] - c[0]) + (b[0] * c[1] - b[1] * c[0])
 
     return Proof(
@@ -66,12 +65,13 @@ def triangle_area() -> Proof:
 
 
 def lines_and_planes() -> Proof:
-    """Prove that the equations of lines and planes with unit vectors measure distances."""
     p, q, n = (point(name, 3) for name in "pqn")
     d, t, length = variables("d t l")
     unit = {"unit": zero(dot(n, n) - 1)}
+    line, plane = {"line": zero(dot(n, minus(q, p)))}, {"plane": zero(dot(n, p) + d)}
     along = tuple(a + t * b for a, b in zip(p, n, strict=True))
     way = minus(along, p)
+    value_terms = term("plane"), term("unit", t)
     ends = [(axis, a + length * c - b, length * c - (b - a)) for axis, a, b, c in zip("xyz", p, q, n, strict=True)]
     return Proof(
         "t is the distance on a line with a unit direction, and the value that from a plane with a unit normal",
@@ -81,24 +81,13 @@ def lines_and_planes() -> Proof:
         (
             *(Step("t = l is the end", {axis: zero(printed)}, zero(end), (term(axis),)) for axis, end, printed in ends),
             Step("t is the distance", unit, zero(dot(way, way) - t * t), (term("unit", t * t),)),
-            Step(
-                "a plane contains its points",
-                {"line": zero(dot(n, minus(q, p)))},
-                zero(dot(n, q) - dot(n, p)),
-                (term("line"),),
-            ),
-            Step(
-                "the value is the distance",
-                {**unit, "plane": zero(dot(n, p) + d)},
-                zero(dot(n, along) + d - t),
-                (term("plane"), term("unit", t)),
-            ),
+            Step("a plane contains its points", line, zero(dot(n, q) - dot(n, p)), (term("line"),)),
+            Step("the value is the distance", unit | plane, zero(dot(n, along) + d - t), value_terms),
         ),
     )
 
 
 def product_of_lines() -> Proof:
-    """Prove that the vector product of two lines is perpendicular to both."""
     u, v = point("u", 3), point("v", 3)
     steps = [Step("the product is perpendicular", {}, zero(dot(cross(u, v), line))) for line in (u, v)]
     square = dot(cross(u, v), cross(u, v)) + dot(u, v) * dot(u, v) - dot(u, u) * dot(v, v)
@@ -108,13 +97,11 @@ def product_of_lines() -> Proof:
 
 
 def equal_images() -> Proof:
-    """Prove that two points in front of the eye, which is the origin, are collinear with it if their images agree."""
     p, q = point("p", 3), point("q", 3)
     normal = cross(p, q)
     hypotheses = {"depth": positive(q[2]), "x": zero(normal[1]), "y": zero(normal[0])}
-    step = Step(
-        "the points are collinear", hypotheses, zero(normal[2]), (term("x", -q[1]), term("y", -q[0])), ("depth",)
-    )
+    terms = term("x", -q[1]), term("y", -q[0])
+    step = Step("the points are collinear", hypotheses, zero(normal[2]), terms, ("depth",))
     return Proof(
         "points with the same image are on one line through the eye",
         "If the images x / z and y / z of two points agree, two components of the points' cross product are 0. Then "
@@ -124,7 +111,6 @@ def equal_images() -> Proof:
 
 
 def fewer_pairs() -> Proof:
-    """Prove that six or more objects have fewer pairs than triples."""
     (m,) = variables("m")
     n = m + 6
     difference = n * (n - 1) * (n - 2) - 3 * n * (n - 1)
@@ -139,7 +125,6 @@ def fewer_pairs() -> Proof:
 
 
 def points_of_hull() -> Proof:
-    """Prove that a point of the hull is on the inner side of all planes of the hull."""
     return Proof(
         "a combination of points is on the inner side of every plane that has all these points on this side",
         "The points of the hull are the combinations of the vertices, and all vertices are on the inner side of each "
@@ -150,7 +135,6 @@ def points_of_hull() -> Proof:
 
 
 def projections() -> Proof:
-    """Prove that a parallel projection of a convex polyhedron is the hull of the images of its vertices."""
     return Proof(
         "the image of a combination is the same combination of the images",
         "The coordinates of an image are linear functions of the point. The images of all combinations of the vertices "
@@ -160,10 +144,10 @@ def projections() -> Proof:
 
 
 def three_planes() -> Proof:
-    """Prove that a vertex of the hull in which at most three planes of the object meet is on no inside corner."""
     u, v, w = (point(name, 3) for name in "uvw")
     (side,) = variables("side")
     volume, square = dot(u, cross(v, w)), dot(u, u)
+    opposite = {"u": positive(side), "-u": positive(-side)}
     return Proof(
         "if three planes meet at a vertex of the hull, all lines there are outside corners",
         "The object near the vertex lies in an open half-space. Three planes divide space into eight cones of edges "
@@ -172,40 +156,28 @@ def three_planes() -> Proof:
         "with u is the square of u times [u v w], so u is an outside corner, and so are v and w. Fewer planes, or "
         "three through one line, make no vertex.",
         (
-            Step(
-                "no half-space contains u and -u",
-                {"u": positive(side), "-u": positive(-side)},
-                IMPOSSIBLE,
-                (term("u"), term("-u")),
-            ),
+            Step("no half-space contains u and -u", opposite, IMPOSSIBLE, (term("u"), term("-u"))),
             Step("it is the square times [u v w]", {}, zero(dot(u, cross(cross(w, u), cross(u, v))) - square * volume)),
         ),
     )
 
 
 def least_surface() -> Proof:
-    """Prove that the hull has the least surface of all convex bodies that contain the points."""
     n, m = point("n", 3), point("m", 3)
     difference = dot(n, n) * dot(m, m) - dot(n, m) * dot(n, m)
+    terms = tuple(term("", component) for component in cross(n, m))
+    step = Step("the square of n m is at most that of n times that of m", {}, not_negative(difference), terms)
     return Proof(
         "the hull has the least surface of all convex bodies that contain the points",
         "Each plane of the hull cuts a part off such a body, or nothing. The surface of this part, projected onto the "
         "plane, covers the section that replaces it. A projection does not enlarge areas, because it multiplies them "
         "by the cosine of the angle between the normals n and m, whose square is at most 1. So no cut enlarges the "
         "surface of the body, and after all cuts the hull remains.",
-        (
-            Step(
-                "the square of n m is at most that of n times that of m",
-                {},
-                not_negative(difference),
-                tuple(term("", c) for c in cross(n, m)),
-            ),
-        ),
+        (step,),
     )
 
 
 def inside_corner() -> Proof:
-    """Prove that the triple product of a line and its surfaces is negative exactly if the line is an inside corner."""
     i, k, second = (point(name, 3) for name in "ikl")
     triple = dot(i, cross(k, second))
     return Proof(
@@ -223,7 +195,6 @@ def inside_corner() -> Proof:
 
 
 def outside_corners() -> Proof:
-    """Prove that a vertex of the hull is on at least three outside corners of the object."""
     return Proof(
         "a vertex of the hull is on at least three outside corners",
         "Some plane touches the object only at the vertex. Cut the object near it by a parallel plane. The hull "
@@ -234,21 +205,14 @@ def outside_corners() -> Proof:
 
 
 def concave_point() -> Proof:
-    """Prove that a point at which a surface of the object is concave is no vertex of the hull."""
     first, second = variables("L_u L_v")
     hypotheses = {"u": positive(-first), "v": positive(-second), "opposite": positive(first + second)}
+    terms = term("u"), term("v"), term("opposite")
     return Proof(
         "a concave point of a surface is no vertex of the hull",
         "At a vertex of the hull some linear function L decreases along both sides u and v of the surface. At a "
         "concave point the surface contains points in the direction -u-v, along which L would have to decrease too.",
-        (
-            Step(
-                "L cannot decrease along u, v and -u-v",
-                hypotheses,
-                IMPOSSIBLE,
-                (term("u"), term("v"), term("opposite")),
-            ),
-        ),
+        (Step("L cannot decrease along u, v and -u-v", hypotheses, IMPOSSIBLE, terms),),
     )
 
 

@@ -1,12 +1,12 @@
 """Checks of Appel and Will on objects given by surfaces: maps, lines and planes, inside corners, preprocessing."""
 
+import math
 from collections import Counter
 from collections.abc import Collection, Sequence
-from functools import cache
 from itertools import combinations, pairwise, product
 
 from modern.claims.appel_will.convexity import CUBE, RINGS, Flat
-from modern.claims.appel_will.proofs import outside_corners
+from modern.claims.appel_will.proofs import least_surface, outside_corners
 from modern.claims.evidence import Check, claim, exhibited, refuted, search, slip
 from modern.claims.hulls import exact_hull
 from modern.claims.invariants import corrected_print, is_sphere, numbers_in
@@ -23,31 +23,30 @@ from modern.papers.appel_will.star import as_corrected
 
 TETRAHEDRON: tuple[Point, ...] = ((0, 0, 0), (12, 0, 0), (0, 12, 0), (0, 0, 12))
 # The apex of the pit in each face of the tetrahedron.
-PITS: dict[tuple[int, int, int], Point] = {
-    (0, 2, 1): (4, 4, 1),
-    (0, 1, 3): (4, 1, 4),
-    (0, 3, 2): (1, 4, 4),
-    (1, 2, 3): (3, 3, 3),
-}
+PITS = {(0, 2, 1): (4, 4, 1), (0, 1, 3): (4, 1, 4), (0, 3, 2): (1, 4, 4), (1, 2, 3): (3, 3, 3)}
 
 
-@cache
 def fig_4() -> Solid:
     return printed_solid(corrected_print("appel-will"))
 
 
+def solid_in(name: str) -> Solid:
+    """Return the polyhedron of an OFF file in ``transcripts/counterexamples``."""
+    mesh = parse_off(counterexample(name), name)
+    return Solid(tuple((int(x), int(y), int(z)) for x, y, z in mesh.points), mesh.faces)
+
+
 def crown() -> Solid:
     """Return a pyramid whose base is a star with four points."""
-    mesh = parse_off(counterexample("crown.off"), "crown.off")
-    points = tuple((int(x), int(y), int(z)) for x, y, z in mesh.points)
-    return Solid(points, tuple(tuple(face) for face in mesh.faces))
+    return solid_in("crown.off")
 
 
-def bent() -> Solid:
-    """Return an L-shaped solid of three cubes, at each point of which three planes meet."""
-    ring: list[Flat] = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
-    sides = [(k, (k + 1) % 6, (k + 1) % 6 + 6, k + 6) for k in range(6)]
-    return Solid(tuple((x, y, z) for z in (0, 1) for x, y in ring), ((5, 4, 3, 2, 1, 0), (6, 7, 8, 9, 10, 11), *sides))
+def prism(ring: tuple[Flat, ...]) -> Solid:
+    """Return a prism on a simple polygon; at most three of its planes meet at each point."""
+    n = len(ring)
+    upright = [(a, b, b + n, a + n) for a, b in sides(range(n))]
+    points = tuple((x, y, z) for z in (0, 1) for x, y in ring)
+    return Solid(points, (tuple(range(n))[::-1], tuple(range(n, 2 * n)), *upright))
 
 
 def pitted() -> Solid:
@@ -55,24 +54,19 @@ def pitted() -> Solid:
     points, surfaces = [*TETRAHEDRON], []
     for face, apex in PITS.items():
         points.append(apex)
-        surfaces += [(a, b, len(points) - 1) for a, b in zip(face, (*face[1:], face[0]), strict=True)]
+        surfaces += [(a, b, len(points) - 1) for a, b in sides(face)]
     return Solid(tuple(points), tuple(surfaces))
-
-
-def objects() -> tuple[Solid, ...]:
-    return fig_4(), crown(), bent(), pitted()
 
 
 def twisted() -> Solid:
     """Return a twisted prism: its six upright triangles meet in pairs at inside corners, so that it is not convex."""
     points: tuple[Point, ...] = ((6, 0, 0), (-3, 5, 0), (-3, -5, 0), (5, 3, 6), (-5, 3, 6), (0, -6, 6))
-    upright = (((k, (k + 1) % 3, (k + 1) % 3 + 3), (k, (k + 1) % 3 + 3, k + 3)) for k in range(3))
-    return Solid(points, ((2, 1, 0), (3, 4, 5), *(surface for pair in upright for surface in pair)))
+    upright = (surface for a, b in sides(range(3)) for surface in ((a, b, b + 3), (a, b + 3, a + 3)))
+    return Solid(points, ((2, 1, 0), (3, 4, 5), *upright))
 
 
 @claim("appel-will.24")
 def changes_of_hull() -> Check:
-    """Check that the hull of Fig. 4 lacks points and has new lines and planes, unlike those of two other objects."""
     block = solid_of_cubes([cube for cube in product(range(3), repeat=3) if cube != (1, 1, 2)])
     changes = [_changes(solid) for solid in (fig_4(), twisted(), block)]
     deleted, new_lines, new_planes = changes[0]
@@ -83,66 +77,49 @@ def changes_of_hull() -> Check:
 
 
 def _changes(solid: Solid) -> tuple[int, int, int]:
-    """Return three numbers: points that are no vertices of the hull, and new lines and planes of the hull.
-
-    An edge of the hull that consists of several lines of the solid is not new.
-    """
+    """Return three numbers: points that are no vertices of the hull, and new lines and planes of the hull."""
     points, judge = solid.points, exact_hull(solid.points)
-    of_surfaces = {_plane_of(points, surface) for surface in solid.surfaces}
-    planes = {_plane_of(points, facet.polygon) for facet in judge.facets} - of_surfaces
+    polygons = [facet.polygon for facet in judge.facets], solid.surfaces
+    hull_planes, planes = ({_plane_of(points, polygon) for polygon in part} for part in polygons)
+    # An edge of the hull that consists of several lines of the solid is not new.
     at = _surfaces_at_lines(solid)
     edges = 0
     for a, b in judge.edges():
         way = minus(points[b], points[a])
         on = sorted((p, k) for k, p in enumerate(points) if not any(cross(way, minus(p, points[a]))))
         edges += any(frozenset((k, m)) not in at for (_, k), (_, m) in pairwise(on))
-    return len(points) - len(judge.vertices), edges, len(planes)
+    return len(points) - len(judge.vertices), edges, len(hull_planes - planes)
 
 
 @claim("appel-will.22")
 def surface_three() -> Check:
-    """Check that the object of Fig. 4 is not closed with surface III as printed: some lines have only one surface."""
-    mesh = parse_off(counterexample("fig4_printed.off"), "fig4_printed.off")
-    solid = Solid((), tuple(tuple(k + 1 for k in face) for face in mesh.faces))
+    solid = solid_in("fig4_printed.off")
     corrected = [numbers_in(row) for row in corrected_print("appel-will")["fig4-topological-map"]]
     (result,) = (result for result in results_of(PAPERS[0]) if result.id == "fig4-topological-map")
     printed = [*corrected[:2], numbers_in(result.printed[2]), *corrected[3:]]
-    alone = sorted(tuple(sorted(line)) for line, count in _surfaces_at_lines(solid).items() if count == 1)
-    message = f"lines on one surface only: {', '.join(f'{a}-{b}' for a, b in alone)}"
-    is_refuted = alone and printed == [[*face] for face in solid.surfaces]
+    alone = sorted(sorted(line) for line, count in _surfaces_at_lines(solid).items() if count == 1)
+    message = f"lines on one surface only: {', '.join(f'{a + 1}-{b + 1}' for a, b in alone)}"
+    is_refuted = alone and printed == [[k + 1 for k in face] for face in solid.surfaces]
     return slip(not is_refuted, is_sphere(corrected), ", ".join(map(str, corrected[2])), message)
 
 
 @claim("appel-will.155")
 def inside_corner_at_vertex() -> Check:
-    """Check that deleting all points on inside corners deletes a vertex of the hull of a pyramid on a star."""
-    solid = crown()
-    deleted = preprocess(solid.points, solid.surfaces, "any").deleted
-    lost = [k + 1 for k in deleted if k in exact_hull(solid.points).vertices]
-    return exhibited(
-        lost, f"point {', '.join(map(str, lost))} of the crown is deleted although it is a vertex of the hull"
-    )
+    lost = ", ".join(str(k + 1) for k in deleted_vertices(crown(), "any"))
+    return exhibited(lost, f"point {lost} of the crown is deleted although it is a vertex of the hull")
 
 
-def prism(ring: tuple[Flat, ...]) -> Solid:
-    """Return a prism on a simple polygon; at most three of its planes meet at each point."""
-    n = len(ring)
-    sides = [(k, (k + 1) % n, (k + 1) % n + n, k + n) for k in range(n)]
-    points = tuple((x, y, z) for z in (0, 1) for x, y in ring)
-    return Solid(points, (tuple(range(n))[::-1], tuple(range(n, 2 * n)), *sides))
-
-
-def keeps_vertices(ring: tuple[Flat, ...], rule: Rule) -> bool:
-    """Return True if a deletion rule deletes no vertex of the hull of the prism over a polygon."""
-    solid = prism(ring)
-    return not {*preprocess(solid.points, solid.surfaces, rule).deleted} & {*exact_hull(solid.points).vertices}
+def deleted_vertices(solid: Solid, rule: Rule) -> list[int]:
+    """Return the vertices of the hull that a rule for inside corners deletes from a polyhedron."""
+    vertices = exact_hull(solid.points).vertices
+    return [k for k in preprocess(solid.points, solid.surfaces, rule).deleted if k in vertices]
 
 
 @claim("appel-will.72", rule="any", full=2_000)
 @claim("appel-will.75", rule="concave", full=2_000)
 def deletion_in_prisms(rule: Rule, cases: int = 5) -> Check:
-    """Check that a rule deletes no vertex of the hull of a prism, at whose points at most three planes meet."""
-    return search(RINGS, lambda ring: keeps_vertices(ring, rule), cases, "no vertex of the hull of a prism is deleted")
+    message = "no vertex of the hull of a prism is deleted"
+    return search(RINGS, lambda ring: not deleted_vertices(prism(ring), rule), cases, message)
 
 
 def _surfaces_at_lines(solid: Solid) -> Counter[frozenset[int]]:
@@ -161,9 +138,23 @@ def solid_of_cubes(cubes: Collection[tuple[int, ...]]) -> Solid:
     return Solid(tuple(points), tuple(tuple(points.index(s[k]) for k in (0, 1, 3, 2)) for s in outer))  # type: ignore[arg-type]
 
 
+# The number of cubes in each of the three arms of a star.
+ARM = 9
+
+
+@claim("appel-will.33")
+def surface_of_star() -> Check:
+    axes = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
+    star = solid_of_cubes({tuple(k * c for c in axis) for axis in axes for k in range(ARM + 1)})
+    normals = [area_vector(star.points, facet.polygon) for facet in exact_hull(star.points).facets]
+    # All surfaces of the star are squares with the area 1.
+    surface, around = len(star.surfaces), sum(math.hypot(*normal) for normal in normals) / 2
+    case = f"a star with three arms of cubes, whose surface is {surface}, whereas that of its hull is {around:.0f}"
+    return least_surface().check().unless(surface < around, case)
+
+
 @claim("appel-will.73")
 def two_inside_corners() -> Check:
-    """Prove that the limit of one outside corner keeps all vertices; without it, the apex of the crown is deleted."""
     solid = crown()
     vertices = {*exact_hull(solid.points).vertices}
     preprocessed = preprocess(solid.points, solid.surfaces, "two")
@@ -175,12 +166,11 @@ def two_inside_corners() -> Check:
 
 @claim("appel-will.152")
 def preprocessing_saves() -> Check:
-    """Check that deleting the points on inside corners of Fig. 4 saves projections and star polygons."""
     solid, counts, stars = fig_4(), [], [0]
 
-    def counted(images: object) -> bool:
+    def counted(images: Sequence[Flat]) -> bool:
         stars[0] += 1
-        return as_corrected(images)  # type: ignore[arg-type]
+        return as_corrected(images)
 
     for rule in (None, "any"):
         stars[0] = 0
@@ -193,10 +183,6 @@ def preprocessing_saves() -> Check:
 
 @claim("appel-will.154")
 def minimum_data() -> Check:
-    """Check that a twisted prism and its hull have the same points but other lines; two objects need less than a map.
-
-    The lines of Fig. 4 follow from the sets of points of its surfaces, and all of a cube from its points.
-    """
     solid, figure, cube = twisted(), fig_4(), exact_hull(CUBE)
     judge = exact_hull(solid.points)
     differ = {*_surfaces_at_lines(solid)} != {*map(frozenset, judge.edges())}
@@ -210,38 +196,33 @@ def minimum_data() -> Check:
 
 @claim("appel-will.77")
 def points_on_three_surfaces() -> Check:
-    """Check that points of four objects are on three or more surfaces."""
-    counts = [sum(k in surface for surface in s.surfaces) for s in objects() for k in range(len(s.points))]
+    # The third object consists of three cubes in the shape of an L.
+    objects = fig_4(), crown(), prism(((0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2))), pitted()
+    counts = [sum(k in surface for surface in s.surfaces) for s in objects for k in range(len(s.points))]
     return exhibited(min(counts) >= 3, f"each of {len(counts)} points of four objects is on three or more surfaces")
 
 
 @claim("appel-will.78")
 def hulls_of_surfaces() -> Check:
-    """Check that a vertex of a surface's hull may not be a vertex of the object's hull; the converse always holds."""
     solid = pitted()
-    apex = max(range(len(solid.points)), key=lambda k: k not in exact_hull(solid.points).vertices)
-    surfaces_at = [surface for surface in solid.surfaces if apex in surface]
-    own = all(s.index(apex) in exact_hull([solid.points[k] for k in s]).vertices for s in surfaces_at)
-    unrelated = own and apex not in exact_hull(solid.points).vertices
-    check = exhibited(unrelated, "the apex of a pit is a vertex of the hulls of its surfaces, but not of the hull")
+    vertices, apex = exact_hull(solid.points).vertices, len(TETRAHEDRON)
+    surfaces = [surface for surface in solid.surfaces if apex in surface]
+    own = all(s.index(apex) in exact_hull([solid.points[k] for k in s]).vertices for s in surfaces)
+    message = "the apex of a pit is a vertex of the hulls of its surfaces, but not of the hull"
+    check = exhibited(own and apex not in vertices, message)
     case = "the proved relation that a vertex of the object's hull is a vertex of the hull of each of its surfaces"
     return check.unless(vertex_is_no_combination().check().holds, case)
 
 
 @claim("appel-will.91", "appel-will.138", "appel-will.76")
 def vertex_without_supporting_surface() -> Check:
-    """Check that a vertex of the hull need not be on a surface of the object whose plane supports the hull."""
     solid = pitted()
-    planes = {surface: _plane_of(solid.points, surface) for surface in solid.surfaces}
-    supporting = 0
-    for plane in planes.values():
-        values = [plane_value(plane, point) for point in solid.points]
-        supporting += max(values) <= 0 or min(values) >= 0
-    passed = supporting == 0 and exact_hull(solid.points).vertices == (0, 1, 2, 3)
-    passed &= len({*planes.values()}) == len(solid.surfaces) == 12
-    message = (
-        f"an object with {len(planes)} surfaces, whose hull is a tetrahedron; planes that support it: {supporting}"
-    )
+    planes = {_plane_of(solid.points, surface) for surface in solid.surfaces}
+    values = [[plane_value(plane, point) for point in solid.points] for plane in planes]
+    supporting = sum(max(row) <= 0 or min(row) >= 0 for row in values)
+    count = len(solid.surfaces)
+    passed = supporting == 0 and exact_hull(solid.points).vertices == (0, 1, 2, 3) and len(planes) == count == 12
+    message = f"an object with {count} surfaces, whose hull is a tetrahedron; planes that support it: {supporting}"
     return exhibited(passed, message)
 
 
@@ -253,7 +234,6 @@ def _plane_of(points: Sequence[Point], surface: Sequence[int]) -> Plane:
 
 @claim("appel-will.83")
 def product_of_directions() -> Check:
-    """Check that the dot product of two directions may be negative or 0 although their angle is below 180 degrees."""
     p, corner, r = counterexample_points("obtuse.csv")
     u, v = minus(p, corner), minus(r, corner)
     products = dot(u, v), dot(u, (0, 1, 0))
@@ -263,12 +243,8 @@ def product_of_directions() -> Check:
 
 @claim("appel-will.80")
 def figure_of_minimum_data() -> Check:
-    """Check that the figure with a list of points and a topological map is Fig. 4, although the text says Fig. 3."""
-    paper = next(paper for paper in PAPERS if paper.name == "appel-will")
-    finding = next(finding for finding in findings(paper) if finding.result.id == "figure-number")
-    words, printed, corrected = (
-        " ".join(lines).split() for lines in (finding.produced, finding.result.printed, finding.result.corrected)
-    )
-    return slip(
-        words == printed, words == corrected, "Fig. 4", "Fig. 3 shows no polyhedron; Fig. 4 has a list and a map"
-    )
+    (finding,) = (finding for finding in findings(PAPERS[0]) if finding.result.id == "figure-number")
+    texts = finding.produced, finding.result.printed, finding.result.corrected
+    words, printed, corrected = (" ".join(lines).split() for lines in texts)
+    message = "Fig. 3 shows no polyhedron; Fig. 4 has a list and a map"
+    return slip(words == printed, words == corrected, "Fig. 4", message)
