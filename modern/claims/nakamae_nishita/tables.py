@@ -183,8 +183,8 @@ def formula_5() -> Check:
     face = plane_through((0, 0, 0, 1), (0, 4, 0, 1), (4, 4, 0, 1))
     above, on, below = (sign(height(face, (1, 2, z, 1))) for z in (1, 0, -1))
     message = "the value is positive outside the face, negative on its other side"
-    check = proved(argument, [*(step.is_valid() for step in steps), above > 0 > below], message)
-    return check.unless(on == 0, "a vertex in the face, for which the value is 0")
+    check = proved(argument, [step.is_valid() for step in steps], message)
+    return check.unless(above > on == 0 > below, "a vertex in the face, for which the value is 0")
 
 
 @cache
