@@ -19,7 +19,16 @@ from modern.comparison.difference import disagreement
 from modern.comparison.outcome import Outcome, Vector, from_cards, from_judge
 from modern.edition import programs
 from modern.edition.apparatus import build
-from modern.edition.chapter4 import THEOREMS, Plane, Point, Theorem, load_text, load_theorems, theorem_faults
+from modern.edition.chapter4 import (
+    THEOREMS,
+    Plane,
+    Point,
+    Theorem,
+    load_text,
+    load_theorems,
+    printed_point,
+    theorem_faults,
+)
 from modern.exact_hull.certificate import rank
 from modern.formats.csv import points as csv_points
 from modern.formats.deck import data_deck
@@ -180,18 +189,22 @@ def _not_supporting(theorem: Theorem) -> Check:
     )
 
 
-# The vertices of H_5 of theorem 4.8: those of H_1, followed by one added at each step.
-ADDED = ("Q1", "Q6", "Q7", "Q2", "Q8", "Q5", "Q3", "Q4")
+@cache
+def points_of_h_5() -> tuple[str, ...]:
+    """Return the vertices of H_5 of theorem 4.8 as the text names them: those of H_1, then one added at each step."""
+    (sentences,) = (line.text for line in build(load_text()) if "are the vertices of H_1" in line.text)
+    names = {point.at: point.name for point in theorem_of("4.8").points}
+    return tuple(names[printed_point(point)] for point in re.findall(r"\([^)]*\)", sentences))
 
 
 def _growing(theorem: Theorem) -> Check:
-    points = [_point(theorem, name).at for name in ADDED]
+    points = [_point(theorem, name).at for name in points_of_h_5()]
     vertices = [len(exact_hull([*map(list, points[:n])]).vertices) for n in range(4, 9)]
     return exhibited(vertices == [4, 5, 6, 7, 8], f"H_1 to H_5 have {', '.join(map(str, vertices))} vertices")
 
 
 def _supporting(theorem: Theorem) -> Check:
-    faces = _faces([_point(theorem, name).at for name in ADDED])
+    faces = _faces([_point(theorem, name).at for name in points_of_h_5()])
     table = {scaled(plane.coefficients, True) for plane in theorem.planes}
     return exhibited(
         faces == table,
@@ -201,7 +214,7 @@ def _supporting(theorem: Theorem) -> Check:
 
 def _last_outside(theorem: Theorem) -> Check:
     """Check that the last point of theorem 4.8 is outside equations 3 to 8 and no others."""
-    points = [_point(theorem, name).at for name in ADDED]
+    points = [_point(theorem, name).at for name in points_of_h_5()]
     outside = [plane.number for plane in theorem.planes if plane.at(_point(theorem, "Q9")) > 0]
     passed = outside == [3, 4, 5, 6, 7, 8] and _point(theorem, "Q9").at not in points
     return exhibited(passed, f"the last point is outside equations {', '.join(map(str, outside))}")
@@ -236,17 +249,17 @@ def procedure_of_4_8() -> Check:
     points = [point.at for point in theorem.points]
     hull = convex_hull(points, history=True)
     used = [theorem.points[k].name for stage in hull.history for k in stage.added]
-    same = [set(used[:n]) == set(ADDED[:n]) for n in range(4, 9)]
+    same = [set(used[:n]) == set(points_of_h_5()[:n]) for n in range(4, 9)]
     as_worded = convex_hull(points, text=True, on_refusal="return")
     outside_six = same[-1] and used[8:] == ["Q9"] and hull.history[-1].outside == 6
     at = {point.name: point for point in theorem.points}
     farthest = []
-    for n, name in enumerate(ADDED[4:], 4):
-        judge = exact_hull([[*at[before].at] for before in ADDED[:n]])
+    for n, name in enumerate(points_of_h_5()[4:], 4):
+        judge = exact_hull([[*at[before].at] for before in points_of_h_5()[:n]])
         planes = [Plane(0, tuple(map(Fraction, judge.plane_of(facet))), (), "", "") for facet in judge.facets]
         farthest.append(any(0 < plane.at(at[name]) == max(map(plane.at, theorem.points)) for plane in planes))
     right = outside_six and [same[0], same[1], same[4]] == [True] * 3 and all(farthest)
-    message = f"the procedure makes H_1, H_2 and H_5; {sum(farthest)} added points are farthest from a plane"
+    message = f"the procedure makes H_1, H_2 and H_5; {sum(farthest)} of the 4 added points are farthest from a plane"
     check = exhibited(right, message)
     others = not same[2] and not same[3] and not as_worded.determined
     return check.unless(others, "H_3 and H_4, which use other points, and the wording of page 29, which makes no H_1")

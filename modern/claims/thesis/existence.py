@@ -9,7 +9,7 @@ from itertools import combinations, product
 from modern.claims.evidence import Check, claim, proved
 from modern.claims.hulls import convex_hull, exact_hull
 from modern.claims.invariants import is_sphere
-from modern.claims.thesis.chapter4_examples import ADDED, theorem_of
+from modern.claims.thesis.chapter4_examples import points_of_h_5, theorem_of
 from modern.edition.chapter4 import Point
 from modern.geometry.vectors import cross, dot, minus
 
@@ -117,7 +117,7 @@ def outside_several_planes() -> Iterator[bool]:
     hull = convex_hull(points, history=True)
     used = [k for stage in hull.history for k in stage.added]
     yield [theorem.points[k].name for k in used[8:]] == ["Q9"]
-    yield {theorem.points[k].name for k in used[:8]} == {*ADDED}
+    yield {theorem.points[k].name for k in used[:8]} == {*points_of_h_5()}
     # The exact hull of the first eight points is computed without the procedure.
     judge = exact_hull([[*points[k]] for k in used[:8]])
     planes = [judge.plane_of(facet) for facet in judge.facets]

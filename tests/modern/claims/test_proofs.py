@@ -69,5 +69,6 @@ def test_instances_are_checked(monkeypatch) -> None:
     monkeypatch.setattr(existence, "SIDE", 2)
     assert not all(existence.coplanar_extremes())
     # Without the first eight points the last one is not outside of H_5.
-    monkeypatch.setattr(existence, "ADDED", existence.ADDED[:7])
+    points = existence.points_of_h_5()
+    monkeypatch.setattr(existence, "points_of_h_5", lambda: points[:7])
     assert not all(existence.outside_several_planes())
