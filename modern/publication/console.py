@@ -167,7 +167,7 @@ def packed(files: Mapping[str, bytes]) -> bytes:
 def _compiled(npm: Path, archives: Sequence[bytes]) -> list[bytes]:
     """Return the archives with each module compiled. The results have no source code."""
     if not (node := shutil.which("node")):
-        raise BuildError("node, which compiles the modules of the emulator in the browser, is missing; install Node.js")
+        raise BuildError("node is missing, which compiles the modules of the emulator for the browser; install Node.js")
     with tempfile.TemporaryDirectory() as folder:
         paths = [Path(folder) / f"{number}.zip" for number in range(len(archives))]
         for path, archive in zip(paths, archives, strict=True):

@@ -103,7 +103,7 @@ def choice_of_first_triangle() -> Check:
 
 @claim("thesis.260")
 def outside_unreplaced_line() -> Check:
-    """Check the counterexample: a point is outside a line of H_1 that is not replaced and so is a line of H_2 too."""
+    """Check the counterexample: a line of H_1 is not replaced, so it is also a line of H_2, and a point is outside it."""
     points = counterexample_points("line_stays.csv")
     sampled = SampledSet(tuple(points), convex_hull(points, history=True), exact_hull(points))
     before, after = sampled.stages()[:2]
