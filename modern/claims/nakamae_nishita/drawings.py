@@ -125,10 +125,6 @@ SHARE = 10**8
 
 @claim("nakamae-nishita.11", full=200)
 def edges_that_can_be_visible(cases: int = CASES) -> Check:
-    """Check that a hull hides the midpoints of its own edges exactly if they are neither inner nor contour edges.
-
-    A hull hides a midpoint if the point next to it, in the direction of the eye, is inside the hull.
-    """
     outcomes, hidden = [], 0
     for sampled in sampled_sets(3, cases):
         points = [sampled.points[k] for k in sampled.judge.vertices]
@@ -140,6 +136,7 @@ def edges_that_can_be_visible(cases: int = CASES) -> Check:
             (solid,) = draw([hull], parallel(way)).solids
             for edge in solid.edges:
                 ends = zip(points[edge.start], points[edge.end], way, strict=True)
+                # A hull hides a midpoint if the point next to it, in the direction of the eye, is inside the hull.
                 beside = tuple(SHARE * (a + b) + 2 * w for a, b, w in ends)
                 is_hidden = exact_hull([*enlarged, beside]).inside == (len(enlarged),)
                 outcomes.append(is_hidden != (edge.kind in (INNER, CONTOUR)))
@@ -150,12 +147,11 @@ def edges_that_can_be_visible(cases: int = CASES) -> Check:
 
 @claim("nakamae-nishita.15", full=600)
 def unrelated_polyhedra(cases: int = 3) -> Check:
-    """Check that no line of sight meets two boxes with separate images, and that the program compares all others."""
-
     def hide_nothing(boxes: tuple[Box, ...]) -> bool:
         compared = {frozenset((relation.v, relation.w)) for relation in _drawn(boxes).relations}
         for v, w in combinations(range(len(boxes)), 2):
             is_common = overlap(_image(boxes[v]), _image(boxes[w]))
+            # The program must compare exactly the boxes whose images overlap.
             if ({v, w} in compared) != is_common or any(True for _ in _orders(boxes[v], boxes[w]) if not is_common):
                 return False
         return True
@@ -202,8 +198,6 @@ DIVISIONS: Generator[tuple[int, ...]] = Generator(
 
 @claim("nakamae-nishita.39", "nakamae-nishita.40", full=300)
 def divided_box(cases: int = 2) -> Check:
-    """Check that a box divided into two parts of one thing has the visible lines of the whole box, by their length."""
-
     def restores(division: tuple[int, ...]) -> bool:
         x, y, z, cut = division
         halves: tuple[Box, ...] = (((0, 0, 0), (cut, y, z)), ((cut, 0, 0), (x, y, z)))

@@ -7,7 +7,6 @@ from modern.claims.evidence import Check, claim
 
 
 def front_face() -> Proof:
-    """Prove that the eye sees the outer side of a face if and only if two edges turn clockwise in the projection."""
     images = u, v, w = tuple(point(name, 2) for name in "uvw")
     turn = bracket(u, v, w)
     depths = variables("r s t")
@@ -50,9 +49,6 @@ def front_face() -> Proof:
 
 
 def three_corners() -> Proof:
-    """Prove that formula (1) for three corners that form a convex angle is positive if and only if the face is a front
-    face.
-    """
     images = u, v, w = tuple(point(name, 2) for name in "uvw")
     # In the paper's figures y points up.
     (x1, y1), (x2, y2), (x, y) = ((x, -y) for x, y in images)

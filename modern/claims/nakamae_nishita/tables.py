@@ -84,11 +84,6 @@ ROOF: tuple[Point, ...] = ((0, 0, 0), (4, 0, 0), (4, 0, 2), (2, 0, 3), (0, 0, 2)
 
 @claim("nakamae-nishita.12", full=400)
 def convex_contour(cases: int = CASES) -> Check:
-    """Check that the edges that belong to exactly one front face form one ring, a clockwise convex polygon.
-
-    No image is to the left of a side of the ring. Sampled hulls are seen from one oblique direction, and one hull along
-    a face; only the ring of that hull has a vertex within a side of the polygon.
-    """
     checks, straight = [], 0
     for points, judge, (u, v) in (
         *((sampled.points, sampled.judge, (31, 17)) for sampled in sampled_sets(3, 1 + cases)),
@@ -114,7 +109,6 @@ def convex_contour(cases: int = CASES) -> Check:
 
 @claim("nakamae-nishita.13", full=25)
 def correlations(cases: int = CASES) -> Check:
-    """Check that exactly one of the three correlations applies to two polygons, also if they touch."""
     checks, counts = [], dict.fromkeys(("apart", "encloses", "partly"), 0)
     for v, w in pairs(cases):
         encloses = any(all(inside(p, a) for p in b) for a, b in ((v, w), (w, v)))
@@ -130,8 +124,6 @@ def correlations(cases: int = CASES) -> Check:
 
 @claim("nakamae-nishita.21")
 def formula_1() -> Check:
-    """Check that the determinant of formula (1) is proportional to the distance from a line, positive on its right."""
-
     def difference(x1: int, y1: int, x: int, y: int, along: int, right: int) -> int:
         x2, y2, u, v = x1 + x, y1 + y, x1 + along * x + right * y, y1 + along * y - right * x
         determinant = u * (y1 - y2) - v * (x1 - x2) + x1 * y2 - x2 * y1
@@ -144,7 +136,6 @@ def formula_1() -> Check:
 
 @claim("nakamae-nishita.30", "nakamae-nishita.31", "nakamae-nishita.32", full=25)
 def formula_3(cases: int = CASES) -> Check:
-    """Check that the number d of formula (3) tells how two segments meet: each of its four values occurs."""
     meetings = [pair for v, w in pairs(cases) for pair in numbers_of_meetings(v, w)]
     outcomes = [d == expected for d, expected in meetings] + [{-4, -2, -1, 0} == {d for d, _ in meetings}]
     return searched(POLYGONS, 2 * cases, outcomes, f"d is right for {len(meetings)} pairs of segments")
@@ -152,7 +143,6 @@ def formula_3(cases: int = CASES) -> Check:
 
 @claim("nakamae-nishita.29", "nakamae-nishita.33", full=25)
 def formula_3_in_line(cases: int = CASES) -> Check:
-    """Check that the number d of formula (3) does not tell whether collinear segments overlap: it is 0."""
     d = tables_by_2(SQUARE, ((2, 2), (2, 4), (6, 4), (6, 2))).crossing_number(1, 1)
     check = formula_3(cases)
     return check.unless(d == 0, "the sides (0, 4) (4, 4) and (2, 4) (6, 4), which overlap, and d is 0")
@@ -160,7 +150,6 @@ def formula_3_in_line(cases: int = CASES) -> Check:
 
 @claim("nakamae-nishita.60", "nakamae-nishita.37")
 def formula_5() -> Check:
-    """Prove that the program computes the determinant of formula (5), whose sign tells the side of a face."""
     x, p, q, r = (algebra.point(name, 3) for name in "xpqr")
     unit = algebra.polynomial(1)
     computed = height(plane_through(*((*corner, unit) for corner in (p, q, r))), (*x, unit))  # type: ignore[arg-type]
@@ -231,7 +220,6 @@ def crosses(v: tuple[Place, ...], i: int, w: tuple[Place, ...], j: int) -> bool:
 @claim("nakamae-nishita.26", number="4", full=25)
 @claim("nakamae-nishita.27", number="LP", full=25)
 def table_properties(number: str, cases: int = CASES) -> Check:
-    """Check a property of the table PL by its number, or with ``LP`` all four properties of the table LP."""
     checks, touching = [], False
     for v, w in pairs(cases):
         pl, lp = tables_of(v, w)
@@ -271,7 +259,6 @@ def _property(
 
 @claim("nakamae-nishita.41", full=25)
 def intersection_counts(cases: int = CASES) -> Check:
-    """Check that a segment meets a contour at most twice, and that formula (3) may count a corner twice."""
     counts, along, over_two = set(), 0, 0
     for v in polygons(cases):
         for a, b in combinations([(x, y) for x in (-3, 0, 2, 4) for y in (-2, 0, 3, 4)], 2):

@@ -51,10 +51,6 @@ VIEWS: Generator[tuple[tuple[Point, ...], Point]] = Generator(
 
 @claim("nakamae-nishita.20", full=400)
 def faces_and_edges(cases: int = 4) -> Check:
-    """Check the kinds of edges by the front faces that contain them, for hulls and for a cuboid from 26 directions.
-
-    The contour edges are the sides of the closed chain that the program follows.
-    """
     directions: list[Point] = [(x, y, z) for x, y, z in product((-1, 0, 1), repeat=3) if any((x, y, z))]
     views = [*VIEWS.cases(cases), *((_CORNERS, way) for way in directions)]
     message = "edges of two front faces are inner edges, and edges of one front face form the contour"
@@ -81,7 +77,6 @@ def _is_classified(points: tuple[Point, ...], way: Point) -> bool:
 
 @claim("nakamae-nishita.16", full=600)
 def hidden_contour_edges(cases: int = 3) -> Check:
-    """Check that the nearer of two boxes also hides contour edges, and edges wholly inside its own contour."""
     drawing = _two_boxes((1, 3, -1))
     check = pieces_against_rays(cases)
     both = drawing.relations[0].by == BY_CROSSING and _hidden(drawing, INNER) and _hidden(drawing, CONTOUR)
@@ -92,7 +87,6 @@ def hidden_contour_edges(cases: int = 3) -> Check:
 
 @claim("nakamae-nishita.49", full=600)
 def order_of_invisibility(cases: int = 3) -> Check:
-    """Check where visible parts begin, and that this is wrong if edges wholly behind a contour are not counted."""
     behind = edges_wholly_behind()
     return pieces_against_rays(cases).unless(not behind.holds, f"a box partly behind a wall: {behind.message}")
 
@@ -170,10 +164,7 @@ def _passage(v: tuple[Place, ...], a: Place, b: Place) -> Passage:
 
 @claim("nakamae-nishita.35")
 def formula_4() -> Check:
-    """Prove that formula (4) is negative if P_1 is nearer than P_2, and check that it cannot decide for touching boxes.
-
-    As P_0, P_1 and P_2 are collinear, P_1 - P_0 = s u and P_2 - P_0 = t u with the direction u and s, t > 0.
-    """
+    # As P_0, P_1 and P_2 are collinear, P_1 - P_0 = s u and P_2 - P_0 = t u with the direction u and s, t > 0.
     s, t, u = *algebra.variables("s t"), algebra.point("u", 3)
     value_of_4 = algebra.dot([s * c for c in u], [(s - t) * c for c in u])
     signs = {"s": algebra.positive(s), "nearer": algebra.positive(t - s), "u": algebra.positive(algebra.dot(u, u))}
@@ -197,14 +188,12 @@ def _undecided_if_touching() -> bool:
 
 @claim("nakamae-nishita.36", full=600)
 def nearer_polyhedron(cases: int = 3) -> Check:
-    """Check that the polyhedron with the nearer point at an intersection is the nearer one on all lines of sight."""
     check = order_on_lines_of_sight(cases)
     return check.unless(_undecided_if_touching(), "two boxes that touch at the intersection: formula (4) is 0")
 
 
 @claim("nakamae-nishita.42", full=100)
 def three_conditions(cases: int = 3) -> Check:
-    """Check that a segment that intersects the contour of a convex polygon enters it, leaves it, or does both."""
     index_patterns, touching = [], 0
     for v in (SQUARE, *POLYGONS.cases(cases)):
         for a, b in combinations(_ENDS, 2):
@@ -219,7 +208,6 @@ def three_conditions(cases: int = 3) -> Check:
 
 @claim("nakamae-nishita.44")
 def sense_of_intersection() -> Check:
-    """Check that the printed product has the wrong sign for a segment that enters a contour."""
     p, q, a, b = (point[:2] for point in counterexample_points("sense.csv"))
     printed = (p[0] - q[0]) * (a[1] - b[1]) - (p[1] - q[1]) * (a[0] - b[0])
     corrected = (q[0] - p[0]) * (a[1] - b[1]) - (q[1] - p[1]) * (a[0] - b[0])
@@ -230,21 +218,17 @@ def sense_of_intersection() -> Check:
 
 @claim("nakamae-nishita.48")
 def edges_wholly_behind() -> Check:
-    """Check that some edges of a box partly behind a wall are hidden although they meet no contour edge.
-
-    The contours cross, so that this is case 2 of section 3 and not case 3, in which one contour encloses the other.
-    """
     scenes = [_scene("partly_behind.toml", *without) for without in ((), ("enclosed",))]
     correct, shown = ({(p.start, p.end) for p in scene.pieces if p.visible and p.solid == 1} for scene in scenes)
     inner = {(edge.start, edge.end) for edge in scenes[0].solids[1].edges if edge.kind == INNER}
     wrong = shown - correct
+    # The contours cross, so that this is case 2 of section 3 and not case 3, in which one contour encloses the other.
     message = f"{len(wrong)} edges, {len(wrong & inner)} of them inner edges, would be visible through the wall"
     return refuted(scenes[0].relations[0].by == BY_CROSSING and wrong & inner, message)
 
 
 @claim("nakamae-nishita.66", full=25)
 def overlap_by_neighbours(cases: int = CASES) -> Check:
-    """Check that adjacent columns of the table PL tell whether two collinear sides overlap."""
     overlaps, beside = [], []
     for v, w in pairs(cases):
         pl, _ = tables_of(v, w)
@@ -261,7 +245,6 @@ def overlap_by_neighbours(cases: int = CASES) -> Check:
 
 @claim("nakamae-nishita.64", full=25)
 def segments_within(cases: int = CASES) -> Check:
-    """Check that a side of one contour that crosses a diagonal of another is partly, not always wholly, inside it."""
     checks, partly_inside = [], 0
     for v, w in pairs(cases):
         for i, (p, q) in product(range(len(v)), combinations(range(len(w)), 2)):
@@ -277,7 +260,6 @@ def segments_within(cases: int = CASES) -> Check:
 
 @claim("nakamae-nishita.65")
 def table_by_formula_4() -> Check:
-    """Check that the table made with the printed formula (4) misses an intersection that formula (1) detects."""
     (eye, *contour), ends = (points := counterexample_points("table_by_4.csv"))[:-2], points[-2:]
     by_4 = {sign(dot(minus(p, eye), minus(p, end))) for p in contour for end in ends}
     flat = tuple((x, y) for x, y, _ in contour)
@@ -289,10 +271,7 @@ def table_by_formula_4() -> Check:
 
 @claim("nakamae-nishita.61", full=300)
 def nearer_contour_inside(cases: int = 3) -> Check:
-    """Check boxes behind a smaller box, and a frustum seen from above with a box in front of its top.
-
-    The contour of that box hides the four sides of the frustum's top, which do not meet the contour.
-    """
+    # A frustum is seen from above, with a box in front of its top.
     corners = [(x, y, z) for z, low, high in ((0, 0, 8), (2, 3, 5)) for x, y in _ring(low, high)]
     walls = [(k, k + 4, (k + 1) % 4 + 4, (k + 1) % 4) for k in range(4)]
     frustum = Polyhedron(
@@ -316,11 +295,11 @@ def _ring(low: int, high: int) -> tuple[tuple[int, int], ...]:
 
 @claim("nakamae-nishita.56")
 def counts_of_table_1d() -> Check:
-    """Check that the counts of Table 1 (d) require plates: a solid with F faces has at most 2 F - 4 vertices."""
     parts, vertices, faces, _ = counts_in_table_1("d")
     # 25 prisms, 23 on quadrangles and 2 on triangles, and five plates with four corners and two faces.
     bases = [4] * 23 + [3] * 2
     plates = (len(bases) + 5, 2 * sum(bases) + 5 * 4, sum(bases) + 2 * len(bases) + 5 * 2)
     check = exhibited(plates == (parts, vertices, faces), "25 prisms and five plates have the printed counts")
+    # A solid with F faces has at most 2 F - 4 vertices.
     most = 2 * faces - 4 * parts
     return check.unless(most < vertices, f"solids only, which have at most {most} vertices with {faces} faces")

@@ -27,7 +27,6 @@ from modern.geometry.vectors import cross, dot, minus
 
 @claim("thesis.18")
 def weights_of_combination() -> Check:
-    """Check that of the combinations of a triangle's corners, those without a negative weight lie in the triangle."""
     sides = [facet.plane for facet in exact_hull([(0, 0, 0), (4, 0, 0), (0, 4, 0)]).facets]
     weights = [(4 - x - y, x, y) for x in range(-3, 8) for y in range(-3, 8)]
     outcomes = [(min(w) >= 0) == all(plane_value(side, (w[1], w[2], 0)) <= 0 for side in sides) for w in weights]
@@ -39,7 +38,6 @@ def weights_of_combination() -> Check:
 
 @claim("thesis.22")
 def vertex_formula_with_minus() -> Check:
-    """Check that the formula with the printed minus cannot give the middle one of three collinear points."""
     points = counterexample_points("middle.csv")
     middle = points[1]
     pair_counts = {"+": 0, "-": 0}
@@ -59,15 +57,11 @@ def vertex_formula_with_minus() -> Check:
 @claim("thesis.23", dimension=2, full=400)
 @claim("thesis.200", dimension=3, full=400)
 def vertex_of_hull(dimension: int, cases: int = 1) -> Check:
-    """Check that a point of a set is a vertex of the hull if and only if it is between no two points of the hull.
-
-    If it is between two points of the hull, all facets that contain it contain a further given point. So it suffices to
-    try each given point with a point of the hull close by on the other side. The counterexample shows why two given
-    points are not enough: a point inside a triangle or tetrahedron is no vertex, but is between no two given points.
-    """
     checks = []
     for sampled in sampled_sets(dimension, cases):
         for k, point in enumerate(sampled.points):
+            # If a point is between two points of the hull, all facets that contain it contain a further given point q.
+            # So it suffices to try each q with a point of the hull close by on the other side.
             # The point p + (p - q) / n has the value (1 + 1 / n) p' - q' / n in an equation with the values p' and q'.
             values = [
                 [10**9 * plane_value(f.plane, point) - plane_value(f.plane, q) for f in sampled.judge.facets]
@@ -88,7 +82,6 @@ def vertex_of_hull(dimension: int, cases: int = 1) -> Check:
 @claim("thesis.202", "thesis.27", kind="planes", full=200)
 @claim("thesis.201", "appel-will.126", kind="lines", full=400)
 def gift_wrapping(kind: str, cases: int = 1) -> Check:
-    """Check that turning planes about edges (in a plane: lines about points) finds exactly the facets of the hull."""
     checks = []
     for sampled in sampled_sets(2 if kind == "lines" else 3, cases):
         expected = {_on(sampled.points, facet.plane) for facet in sampled.judge.facets}
@@ -149,7 +142,6 @@ def _turned_lines(sampled: SampledSet) -> set[frozenset[int]]:
 
 @claim("thesis.24", full=400)
 def planes_from_triples(cases: int = CASES) -> Check:
-    """Check that testing the planes through all triples of points finds exactly the facets of the hull."""
     agreeing = 0
     sets = sampled_sets(3, cases)
     for sampled in sets:
@@ -166,7 +158,6 @@ def planes_from_triples(cases: int = CASES) -> Check:
 
 @claim("thesis.25", full=400)
 def lines_from_pairs(cases: int = CASES) -> Check:
-    """Check that testing the lines through all pairs of points finds exactly the edges of the hull in the plane."""
     agreeing = 0
     sets = sampled_sets(2, cases)
     for sampled in sets:

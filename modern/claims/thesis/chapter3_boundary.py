@@ -26,7 +26,6 @@ _USED_POINTS: list[Point] = [(3, 0, 0), (3, 2, 1), (0, 2, 0), (0, 0, 0), (3, 0, 
 
 @claim("thesis.81")
 def used_boundary_point() -> Check:
-    """Check that the procedure may make a vertex of a point that lies between two others (a set of four points)."""
     points = _POINT_ON_A_SIDE
     hull = convex_hull(points, history=True)
     used = sorted(k for stage in hull.history for k in stage.added)
@@ -54,7 +53,6 @@ LATTICE_SETS: dict[int, Generator[tuple[Point, ...]]] = {
 @claim("thesis.80", "thesis.223", dimension=2, full=400)
 @claim("thesis.102", "thesis.256", dimension=3, full=400)
 def end_of_the_procedure(dimension: int, cases: int = 2) -> Check:
-    """Check that the points left at the end are boundary points, and that superfluous points and planes are removed."""
     outcomes, removed = [], [0, 0, 0]
     for points in (*LATTICE_SETS[dimension].cases(cases), _POINT_ON_A_SIDE if dimension == 2 else _USED_POINTS):
         hull, judge = convex_hull(points, history=True), exact_hull(points)
@@ -72,7 +70,6 @@ def end_of_the_procedure(dimension: int, cases: int = 2) -> Check:
 
 @claim("thesis.85", full=400)
 def duplicate_lines(cases: int = 3 * CASES) -> Check:
-    """Check that a side with three used points has at least two equations before duplicates are removed."""
     outcomes = []
     for points in (*LATTICE_SETS[2].cases(cases), _POINT_ON_A_SIDE):
         hull = convex_hull(points, history=True)
@@ -92,7 +89,6 @@ def _on_side(points: Sequence[Point], ends: tuple[int, ...], k: int) -> bool:
 
 @claim("thesis.104", "thesis.105", full=300)
 def planes_at_vertex(cases: int = CASES) -> Check:
-    """Check that a vertex lies in three or more planes of the exact hull, and any other point in at most two."""
     checks = []
     for points in (*LATTICE_SETS[3].cases(cases), PYRAMID):
         judge = exact_hull(points)
@@ -107,7 +103,6 @@ def planes_at_vertex(cases: int = CASES) -> Check:
 
 @claim("thesis.231")
 def used_points_in_planes() -> Check:
-    """Count the planes of the last hull that contain the two used points that are not vertices: one and two."""
     points = _USED_POINTS
     hull, judge = convex_hull(points, history=True), exact_hull(points)
     used = {k for stage in hull.history for k in stage.added} - {*judge.vertices}
@@ -119,7 +114,6 @@ def used_points_in_planes() -> Check:
 
 @claim("thesis.230", full=400)
 def boundary_points_on_edges(cases: int = 5) -> Check:
-    """Check that a point in exactly two planes lies on their common edge, whereas a point in one plane need not."""
     checks, in_one_plane = [], 0
     for points in LATTICE_SETS[3].cases(cases):
         judge = exact_hull(points)
@@ -145,10 +139,6 @@ def _with_0(point: Point, axis: int) -> Point:
 
 @claim("thesis.274", full=400)
 def hull_of_projection(cases: int = CASES) -> Check:
-    """Check that projections of flat sets keep vertices, boundary points, inside points, and the points of each line.
-
-    The exact hull represents a line of a flat set by the plane through the line perpendicular to the set.
-    """
     checks = []
     for sampled in sampled_sets(2, cases):
         plane = sampled.judge.plane
@@ -163,13 +153,13 @@ def hull_of_projection(cases: int = CASES) -> Check:
 
 
 def _parts(points: Sequence[Point], hull: ExactHull) -> tuple[object, ...]:
+    # The exact hull represents a line of a flat set by the plane through the line perpendicular to the set.
     lines = {frozenset(k for k, point in enumerate(points) if not plane_value(f.plane, point)) for f in hull.facets}
     return {*hull.vertices}, {*hull.boundary}, {*hull.inside}, lines
 
 
 @claim("thesis.273")
 def sum_that_ends_with_plus() -> Check:
-    """Check that the printed sum lacks its last term, the product D_0 D_C of the constant terms, which is 0."""
     (row,) = (row for row in statements_of("thesis") if row.id == "thesis.273")
     *_, last = row.words.partition(r"\neq")[0].split("+")
     right = coordinate_planes().check().holds

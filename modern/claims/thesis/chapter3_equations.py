@@ -46,7 +46,6 @@ def _parts(sampled: SampledSet, hull: Hull | ExactHull, planes: Sequence[Plane])
 
 @claim("thesis.6", full=400)
 def other_orders(cases: int = CASES) -> Check:
-    """Check that the hull has the same vertices and planes if the points are reversed, or sorted by y, z and x."""
     same = []
     for sampled in flat_and_spatial_sets(cases):
         orders = [sampled.points, sampled.points[::-1], sorted(sampled.points, key=lambda p: (*p[1:], p[0]))]
@@ -71,8 +70,6 @@ LINES: Generator[tuple[Point, ...]] = Generator(
 
 @claim("thesis.1", "thesis.7", "thesis.8", "thesis.48", full=2_000)
 def collinear_points(cases: int = 8) -> Check:
-    """Check that the procedure finds the two ends and two equations for the points of a line."""
-
     def ends_and_equations(points: tuple[Point, ...]) -> bool:
         hull = convex_hull(points)
         equations: list[Plane] = [tuple(map(int, line)) for line in hull.lines]  # type: ignore[misc]
@@ -97,8 +94,6 @@ FEW: Generator[tuple[Point, ...]] = Generator("1 to 12 points, coordinates from 
 
 @claim("thesis.32", full=2_000)
 def few_points(cases: int = 24) -> Check:
-    """Check that the procedure finds the vertices of sets of 1 to 12 points; all of at most two points are vertices."""
-
     def vertices_are_right(points: tuple[Point, ...]) -> bool:
         hull = convex_hull(points)
         vertices = {*hull.vertices}
@@ -109,7 +104,6 @@ def few_points(cases: int = 24) -> Check:
 
 @claim("thesis.138", "thesis.211", full=400)
 def first_two_points(cases: int = CASES) -> Check:
-    """Check that the first two points have the largest and smallest x; if all x are equal, y; if all y are too, z."""
     checks = []
     for sampled in flat_and_spatial_sets(cases):
         for axis in range(3):
@@ -137,8 +131,6 @@ def line_of_page_19(xm: int, ym: int, xk: int, yk: int) -> Line:
 @claim("thesis.40", "thesis.41", "thesis.43", page=12)
 @claim("thesis.62", page=19)
 def equation_of_line(page: int) -> Check:
-    """Check that a printed equation, for two coordinates of each point, is 0 exactly on the line through two points."""
-
     def difference(u1: int, v1: int, u: int, v: int, along: int, right: int) -> int:
         a, b, c = (line_as_printed if page == 12 else line_of_page_19)(u1, v1, u1 + u, v1 + v)
         return a * (u1 + along * u + right * v) + b * (v1 + along * v - right * u) + c - right * (u * u + v * v)
@@ -149,8 +141,6 @@ def equation_of_line(page: int) -> Check:
 
 @claim("thesis.51")
 def equation_of_plane() -> Check:
-    """Check that equation (3.4), which is linear in each coordinate, has the coefficients of the cross product."""
-
     def difference(*numbers: int) -> int:
         p, q, r = numbers[:3], numbers[3:6], numbers[6:]
         return int(plane_as_printed(p, q, r) != plane_through(p, q, r))  # type: ignore[arg-type]

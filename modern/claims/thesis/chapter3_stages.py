@@ -59,17 +59,13 @@ def stage_property(kind: str, cases: int = CASES) -> Check:
 @claim("thesis.264", kind="equations", reading="H_j")
 @claim("thesis.239", kind="added_triangle", reading="j = k")
 def number_of_the_hull(kind: str, reading: str) -> Check:
-    """Check the number of a hull: H_j is the hull of its NV points, and H_k+1 consists of H_k and a triangle.
-
-    With the number 1, both statements would be about the first hull only.
-    """
+    # With the number 1, both statements would be about the first hull only.
     first_alone = all(len(sampled.stages()) == 1 for sampled in sampled_sets(2, CASES))
     return stage_property(kind).misprinted(not first_alone, reading)
 
 
 @claim("thesis.227", full=300)
 def one_of_several_planes(cases: int = CASES) -> Check:
-    """Check that a body in which one of several visible planes is replaced is not convex, and that there are some."""
     sets = sampled_sets(3, cases)
     several = sum(record.outside > 1 for sampled in sets for _, _, record, _ in _steps(sampled))
     outcomes = [several > 0, *(right for sampled in sets for right in _convexity(sampled))]
@@ -79,7 +75,6 @@ def one_of_several_planes(cases: int = CASES) -> Check:
 
 @claim("thesis.226")
 def third_new_plane() -> Check:
-    """Check that the three new planes of a step contain different pairs of the points MM, NN and KK."""
     outcomes = [ok for sampled in sampled_sets(3, CASES) for ok in _replaced_facet(sampled)]
     pairs = [*combinations(("MM", "NN", "KK"), 2)]
     printed = [("MM", "NN"), ("MM", "KK"), ("MM", "KK"), ("MM", "KK")]
@@ -89,7 +84,6 @@ def third_new_plane() -> Check:
 
 @claim("thesis.205", full=300)
 def eliminated_points(cases: int = CASES) -> Check:
-    """Check that each stage eliminates the points inside it, and no boundary point such as the midpoint of a side."""
     points = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (1, 0, 0), (1, 1, 0)]
     hull = convex_hull(points, history=True)
     stays = hull.boundary == (4,) and {k for stage in hull.history for k in stage.struck} == {5}

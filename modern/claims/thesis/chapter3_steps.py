@@ -38,7 +38,6 @@ def all_hold(generator: Generator[Any], cases: int, outcomes: Iterable[object], 
 
 @claim("thesis.49", "thesis.138", full=400)
 def third_point(cases: int = CASES) -> Check:
-    """Check that no point is farther from the line through the first two points than the third point of H_1."""
     message = "sets: no point is farther from the line of the first two than the third point"
     return all_hold(BOTH, 2 * cases, _farthest(flat_and_spatial_sets(cases)), message)
 
@@ -56,7 +55,6 @@ def _square(u: Point) -> int:
 
 @claim("thesis.52", full=300)
 def coplanarity_test(cases: int = CASES) -> Check:
-    """Check that the values of (3.4) at all points are 0 if and only if the set is flat."""
     checks = []
     for sampled in flat_and_spatial_sets(cases):
         first = plane_as_printed(*(sampled.points[k] for k in sampled.hull.history[0].added[:3]))
@@ -66,7 +64,6 @@ def coplanarity_test(cases: int = CASES) -> Check:
 
 @claim("thesis.53", full=300)
 def common_first_steps(cases: int = CASES) -> Check:
-    """Check that the first three points of a flat set stay the same if one point outside its plane is added."""
     checks = []
     for sampled in sampled_sets(2, cases):
         # Multiply the coordinates so that the mean moved by one unit, a point just outside the plane, has integers.
@@ -81,7 +78,6 @@ def common_first_steps(cases: int = CASES) -> Check:
 
 @claim("thesis.59", full=300)
 def members_by_signs(cases: int = 1) -> Check:
-    """Check that a point changes the hull of a set, if it is added, if and only if some equation is positive there."""
     checks = []
     for sampled in flat_and_spatial_sets(cases):
         corners = {sampled.points[k] for k in sampled.judge.vertices}
@@ -96,7 +92,6 @@ def members_by_signs(cases: int = 1) -> Check:
 
 @claim("thesis.213", "thesis.58", full=300)
 def classification_by_signs(cases: int = CASES) -> Check:
-    """Check that the signs of the exact equations classify vertices, boundary points and inside points correctly."""
     checks = []
     some_boundary = bool(exact_hull([(0, 0, 0), (2, 0, 0), (1, 0, 0), (0, 2, 0)]).boundary)
     for sampled in flat_and_spatial_sets(cases):
@@ -110,7 +105,6 @@ def classification_by_signs(cases: int = CASES) -> Check:
 
 @claim("thesis.61", "thesis.63", "thesis.64", "thesis.88", full=300)
 def mean_of_first_hull(cases: int = CASES) -> Check:
-    """Check that H_1 has the equations of the exact hull of its points, negative at their mean, the inside point C."""
     right, negative = [], []
     for sampled in flat_and_spatial_sets(cases):
         first = sampled.stages()[0]
@@ -126,7 +120,6 @@ def mean_of_first_hull(cases: int = CASES) -> Check:
 
 @claim("thesis.67")
 def outside_convention() -> Check:
-    """Check that the printed definition of "outside" also calls an inside point outside the line x = 0."""
     ((x, _, _),) = counterexample_points("both_sides.csv")
     inside = [value < 0 for value in (x, -x)]
     printed, corrected = inside, [value > 0 for value in (x, -x)]
@@ -159,7 +152,6 @@ def between_by_distances() -> Check:
 
 @claim("thesis.87")
 def fourth_point_by_largest() -> Check:
-    """Check a set for which the printed rule for the fourth point (the largest value) gives no tetrahedron."""
     points = counterexample_points("negative_side.csv")
     plane = plane_as_printed(*points[:3])
     values = [plane_value(plane, point) for point in points]
@@ -206,7 +198,6 @@ def _visible(cases: int) -> Iterator[tuple[SampledSet, Approximation, Approximat
 
 @claim("thesis.199")
 def planes_i_and_m() -> Check:
-    """Check that the text means planes i and m: these have two common points, whereas planes i and j do not."""
     pairs, with_j = [], []
     for sampled, before, _, visible in _visible(CASES):
         j = sampled.stages().index(before)
@@ -218,7 +209,6 @@ def planes_i_and_m() -> Check:
 
 @claim("thesis.98", full=300)
 def planes_of_same_points(cases: int = CASES) -> Check:
-    """Check that both planes through the new point and a common edge of two replaced planes are eliminated."""
     eliminated, in_order = [], []
     for _, before, after, visible in _visible(cases):
         for i, m, edge in _shared(before, visible):
@@ -255,7 +245,6 @@ WITH_FOURTH_POINT = replace(
 
 @claim("thesis.95", full=300)
 def order_of_replacement(cases: int = CASES) -> Check:
-    """Check that the order of the text finds the planes that the listing finds in another order."""
     outcomes, reordered = [], 0
     for points in WITH_FOURTH_POINT.cases(cases):
         text, listing = (
@@ -269,7 +258,6 @@ def order_of_replacement(cases: int = CASES) -> Check:
 
 @claim("thesis.96")
 def without_constant_term() -> Check:
-    """Check that without the constant term D the centre of a cube is outside some planes of the cube."""
     *corners, middle = counterexample_points("without_d.csv")
     planes = [facet.plane for facet in exact_hull(corners).facets]
     values = [(dot(plane[:3], middle), plane_value(plane, middle)) for plane in planes]

@@ -39,7 +39,6 @@ _ELIMINATE_CHECK_GROW = {"program2.f": {106: "E", 124: "C", 133: "G"}, "program3
 
 @claim("thesis.267")
 def text_against_listing() -> Check:
-    """Check the order of the steps, and four steps that differ: two change only an order, two also the result."""
     losing = (fourth_point_by_largest(), line_duplicates_as_printed())
     same_result = (order_of_elimination(), order_of_replacement(), plane_duplicates_as_printed())
     message = "traces show the steps in the order of chapter 3, and two steps differ only in the order of planes"
@@ -49,7 +48,6 @@ def text_against_listing() -> Check:
 
 @claim("thesis.275")
 def line_duplicates_as_printed() -> Check:
-    """Check that the rule of page 28 can remove all equations of a line that contains three vertices."""
     points = counterexample_points("line_lost.csv")
     judge, hull = exact_hull(points), convex_hull(points, history=True)
     used = [k for stage in hull.history for k in stage.added]
@@ -84,7 +82,6 @@ def _indices_on_line(points: Sequence[Point], a: int, b: int) -> list[int]:
 
 @claim("thesis.103", "thesis.276", full=300)
 def plane_duplicates_as_printed(cases: int = CASES) -> Check:
-    """Check that the text (page 34) keeps the last equation of each plane, whereas the listing keeps the first."""
     checks, differing = [], 0
     for points in (PYRAMID, *LATTICE_SETS[3].cases(cases)):
         last = convex_hull(points, history=True).history[-1].equations
@@ -115,7 +112,6 @@ def _unsigned(plane: tuple[int, int, int, int]) -> tuple[int, int, int, int]:
 
 @claim("thesis.272")
 def program3_against_program2() -> Check:
-    """Check that program 3 has more code than program 2, and a step that a flat set does not need."""
     two, three = (programs.deck(f"program{k}").text() for k in (2, 3))
     code = [code_positions(programs.program(f"program{k}")) for k in (2, 3)]
     passed = code[0] < code[1] and "ELIMINATING INSIDE PLANES" in three and "ELIMINATING INSIDE" not in two
@@ -128,7 +124,6 @@ def program3_against_program2() -> Check:
 
 @claim("thesis.269")
 def consecutive_hulls() -> Check:
-    """Check that the pairs of hulls (H_j, H_j+1) begin with (H_1, H_2), so that the index j + 1 starts at 2."""
     checks: list[bool] = []
     numbers: set[int] = set()
     for sampled in (*sampled_sets(2, CASES), *sampled_sets(3, CASES)):
@@ -143,14 +138,12 @@ def consecutive_hulls() -> Check:
 
 @claim("thesis.219")
 def netc_in_listings() -> Check:
-    """Check that programs 2 and 3 set NETC to 1 once, at their start, and otherwise only increase it by 1."""
     assigned = [re.findall(r"\bNETC *= *(\S+)", programs.deck(name).text()) for name in ("program2", "program3")]
     return exhibited(assigned == [["1", "NETC+1"]] * 2, "the listings set NETC to 1 once and otherwise add 1 to it")
 
 
 @claim("thesis.286", full=100)
 def order_of_elimination(cases: int = CASES) -> Check:
-    """Check by traces that programs 2 and 3 eliminate inside points, then test a hull, and then determine the next."""
     in_order, hulls = [], 0
     for sampled in flat_and_spatial_sets(cases):
         deck = data_deck([[*map(str, point)] for point in sampled.points], "sampled")
@@ -170,10 +163,6 @@ def order_of_elimination(cases: int = CASES) -> Check:
 
 @claim("thesis.39", full=400)
 def first_hull_against_extremes(cases: int = 4) -> Check:
-    """Compare H_1 with the hull of the six extreme points: volume and number of planes.
-
-    The sets are sampled sets, sets with coplanar extreme points, and a counterexample in which H_1 is larger.
-    """
     within, fewer = [], []
     for sampled in sampled_sets(3, cases):
         first, six_extremes = _volumes_and_planes(sampled.points, sampled)

@@ -82,7 +82,6 @@ def _computed(theorem: str) -> Mapping[str, Check]:
 @claim("thesis.149", theorem="4.8", claim="equations")
 @claim("thesis.151", theorem="4.8", claim="signs")
 def worked_example(theorem: str, claim: str) -> Check:
-    """Return the check of a claim such as ``4.1 six_extremes``: a theorem, and the function that checks its example."""
     return _computed(theorem)[claim]
 
 
@@ -96,13 +95,10 @@ EXTREMES_IN_A_PLANE: tuple[tuple[tuple[int, int, int], ...], ...] = (
 
 
 def _points(theorem: Theorem) -> Check:
-    """Check that the example has as many different points as the text states, and that they are not all coplanar.
-
-    A point that the OCR lost counts if the text names it as an extreme point.
-    """
     texts = [m[1] for line in build(load_text()) if (m := re.search(r"the following set of (\w+) points", line.text))]
     number = texts[THEOREMS.index(theorem.id)]
     known = {point.name: point.at for point in theorem.points}
+    # A point that the OCR lost counts if the text names it as an extreme point.
     names = known.keys() | ({*theorem.lost} & {*theorem.extremes.values()})
     first = theorem.points[0].name[0]
     is_complete = names == {f"{first}{k}" for k in range(1, _NUMBERS[number] + 1)}
@@ -113,7 +109,6 @@ def _points(theorem: Theorem) -> Check:
 
 
 def _equations(theorem: Theorem) -> Check:
-    """Check that each equation of the example is 0 at the points named in its row, and the extreme points are right."""
     faults = theorem_faults(theorem, load_text())
     message = f"{theorem.points_stated} points; each equation is 0 at the points of its row"
     message += ", and the extreme points are as stated" if theorem.extremes else ""
@@ -121,7 +116,6 @@ def _equations(theorem: Theorem) -> Check:
 
 
 def _signs(theorem: Theorem) -> Check:
-    """Check that the example states correctly which points are outside and which inside the planes of its equations."""
     right = sum((theorem.plane(n).at(_point(theorem, p)) > 0) == (sign == "+") for n, p, sign in theorem.signs)
     return exhibited(right == len(theorem.signs), f"{right} of {len(theorem.signs)} signs are as stated")
 
@@ -158,7 +152,6 @@ def _outside_plane(theorem: Theorem) -> Check:
 
 
 def _lost_point(theorem: Theorem) -> Check:
-    """Check that some values of the lost point P3 fit the text, and that none of them makes all points coplanar."""
     candidates = lost_candidates(theorem)
     first, *points = (p.at for p in theorem.points)
     nonplanar = 0
@@ -178,7 +171,6 @@ def _faces(points: Sequence[Vector]) -> set[Vector]:
 
 
 def _not_supporting(theorem: Theorem) -> Check:
-    """Check that equations 7 and 8 of Table 1 are not among the planes of the exact hull; equations 1 to 6 are."""
     faces = _faces([point.at for point in theorem.points])
     table = [scaled(plane.coefficients, True) for plane in theorem.planes]
     inside = [number for number, plane in enumerate(table, 1) if plane in faces]
@@ -213,7 +205,6 @@ def _supporting(theorem: Theorem) -> Check:
 
 
 def _last_outside(theorem: Theorem) -> Check:
-    """Check that the last point of theorem 4.8 is outside equations 3 to 8 and no others."""
     points = [_point(theorem, name).at for name in points_of_h_5()]
     outside = [plane.number for plane in theorem.planes if plane.at(_point(theorem, "Q9")) > 0]
     passed = outside == [3, 4, 5, 6, 7, 8] and _point(theorem, "Q9").at not in points
@@ -221,10 +212,6 @@ def _last_outside(theorem: Theorem) -> Check:
 
 
 def _programs(theorem: Theorem, load: Load) -> Check:
-    """Check that the listing finds the exact hull of the printed points.
-
-    If the cards truncate coordinates, the listing must reject the points instead.
-    """
     truncated_points = [[_CARD.divide(x.numerator, x.denominator) for x in point.at] for point in theorem.points]
     points: list[Vector] = [tuple(map(Fraction, point)) for point in truncated_points]
     deck = data_deck([list(map(str, point)) for point in truncated_points], "theorem")
@@ -234,17 +221,13 @@ def _programs(theorem: Theorem, load: Load) -> Check:
     agrees = outcome.determined and disagreement(outcome, judge, points).agrees
     description = "the printed points" if is_exact else "the points truncated to eight digits"
     missing = f", without {', '.join(theorem.lost)}" if theorem.lost else ""
+    # If the cards truncate coordinates, the listing must reject the points.
     passed = agrees if is_exact else outcome.status == NOT_ACCEPTABLE
     return exhibited(passed, f"{description}{missing}: {_seen(outcome, agrees, judge)}")
 
 
 @claim("thesis.245")
 def procedure_of_4_8() -> Check:
-    """Check that the procedure makes H_1, H_2 and H_5 of page 56, and that each added point is farthest from a plane.
-
-    The procedure tests old planes before new ones, and adds other points for H_3 and H_4.  By the wording of page 29 it
-    makes no H_1.
-    """
     theorem = theorem_of("4.8")
     points = [point.at for point in theorem.points]
     hull = convex_hull(points, history=True)
@@ -268,7 +251,6 @@ def procedure_of_4_8() -> Check:
 @claim("thesis.246", which="list")
 @claim("thesis.247", which="table")
 def slips_of_4_8(which: str) -> Check:
-    """Check two misprinted points of page 56: (-4, -4, 2) in the list and (3, 4, -1) in the table."""
     theorem = theorem_of("4.8")
     printed_points, _ = csv_points(counterexample("slips_4_8.csv"), "slips_4_8.csv")
     listed, in_table = (Point("", tuple(map(Fraction, map(str, p))), "", "") for p in printed_points)

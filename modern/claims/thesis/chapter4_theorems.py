@@ -29,7 +29,6 @@ from modern.edition.chapter4 import load_theorems
 
 @claim("thesis.5")
 def eight_theorems() -> Check:
-    """Check that theorems 4.1 to 4.8 each have a worked example in the thesis or a proof in this project."""
     examples = {theorem.id for theorem in load_theorems()}
     proofs_by_name = {name[8:].replace("_", "."): f for name, f in vars(proofs).items() if name.startswith("theorem_")}
     is_complete = examples | {*proofs_by_name} == {f"4.{k}" for k in range(1, 9)}
@@ -41,7 +40,6 @@ def eight_theorems() -> Check:
 
 @claim("thesis.113")
 def extremes_4_2() -> Check:
-    """Check that P1 to P6 of theorem 4.2 are, in this order, the points with the largest and smallest x, y and z."""
     points = [point.at for point in theorem_of("4.2").points]
     passed = all(
         points[2 * k][k] == max(p[k] for p in points) and points[2 * k + 1][k] == min(p[k] for p in points)
@@ -52,7 +50,6 @@ def extremes_4_2() -> Check:
 
 @claim("thesis.117")
 def inequalities_without_z() -> Check:
-    """Check that the printed inequality A x + B y + C < 0, which lacks z and D, is false at point 6 for equation 7."""
     (point,) = counterexample_points("point_6.csv")
     a, b, c, d = theorem_of("4.2").plane(7).coefficients
     as_printed, right = a * point[0] + b * point[1] + c, plane_value((int(a), int(b), int(c), int(d)), point)
@@ -67,7 +64,6 @@ def inequalities_without_z() -> Check:
 
 @claim("thesis.123")
 def sign_e() -> Check:
-    """Check that the sign e, chosen as page 42 says, is not always 1: it is -1 for the line of the counterexample."""
     p, q = counterexample_points("e_minus_one.csv")
     first = next(k for k in (q[2] - p[2], q[1] - p[1], q[0] - p[0]) if k)
     e = 1 if first > 0 else -1
@@ -76,7 +72,6 @@ def sign_e() -> Check:
 
 @claim("thesis.242")
 def bars_of_page_50() -> Check:
-    """Check that the distance from a line on page 50 needs absolute value bars around all three terms."""
     a, b, c, p, q = 3, -2, 5, (1, 4), (3, 7)
     as_text = [
         _distance_squared((x, y), p, q) * (a * a + b * b) == (abs(a * x) + b * y + c) ** 2
@@ -93,7 +88,6 @@ def _distance_squared(x: tuple[int, int], p: tuple[int, int], q: tuple[int, int]
 
 @claim("thesis.138")
 def choice_of_first_triangle() -> Check:
-    """Check that theorem 4.7 needs the rule for H_1: a point may be outside two lines of another triangle."""
     triangle, point = [(0, 0, 0), (2, 0, 0), (0, 2, 0)], (-1, -1, 0)
     outside = sum(plane_value(facet.plane, point) > 0 for facet in exact_hull(triangle).facets)
     chosen = convex_hull([*triangle, point], history=True).history[0].added
@@ -103,7 +97,6 @@ def choice_of_first_triangle() -> Check:
 
 @claim("thesis.260")
 def outside_unreplaced_line() -> Check:
-    """Check the counterexample: a line of H_1 is not replaced, so it is also a line of H_2, and a point is outside it."""
     points = counterexample_points("line_stays.csv")
     sampled = SampledSet(tuple(points), convex_hull(points, history=True), exact_hull(points))
     before, after = sampled.stages()[:2]
@@ -128,7 +121,6 @@ def _values(x: Polynomial, y: Polynomial) -> list[Polynomial]:
 
 @claim("thesis.140")
 def lines_of_figure_3() -> Check:
-    """Prove that each printed line of Fig. 3 contains two corners of the triangle and is negative at the third."""
     origin = polynomial(0)
     third, first, second = _values(origin, origin), _values(X1, Y1), _values(X1, Y2)
     on = [first[0], second[0], third[1], first[1], third[2], second[2]]
@@ -146,7 +138,6 @@ def lines_of_figure_3() -> Check:
 
 @claim("thesis.141")
 def outside_of_two_lines() -> Check:
-    """Prove that a point outside both lines 2 and 3 of Fig. 3 has a negative x; y_1 is less than y_2."""
     x, y = variables("x y")
     _, second, third = _values(x, y)
     signs = {"order": positive(Y2 - Y1), "line 2": positive(second), "line 3": positive(third)}
@@ -157,7 +148,6 @@ def outside_of_two_lines() -> Check:
 
 @claim("thesis.244")
 def no_negative_x() -> Check:
-    """Prove that no given point has a negative x in Fig. 3: none is farther from the line x = x_1 than P_3."""
     (x,) = variables("x")
     signs = {"x_1": positive(2 * X1), "third": not_negative(X1 * X1 - (x - X1) * (x - X1))}
     step = Step("x is not negative", signs, not_negative(x), (term("third"), term("", x)), ("x_1",))
@@ -166,10 +156,7 @@ def no_negative_x() -> Check:
 
 @claim("thesis.142", "thesis.143")
 def outside_of_line_1() -> Check:
-    """Prove that no point is outside both line 1 and another line of the triangle, in the way of lines 2 and 3.
-
-    The corner of both lines is the origin, and no given point is beyond it: P_1 has the largest x, P_2 the smallest.
-    """
+    # The corner of both lines is the origin, and no given point is beyond it: P_1 has the largest x, P_2 the smallest.
     (x, y), (x2, y2), (x3, y3) = (point(name, 2) for name in ("h", "q", "r"))
     steps = []
     for sign in (1, -1):
@@ -189,7 +176,6 @@ def outside_of_line_1() -> Check:
 
 @claim("thesis.243")
 def third_equation() -> Check:
-    """Check that the third equation of H_1 is that of a line: it is not 0 at all points of the triangle's plane."""
     at_first_point = _values(X1, Y1)[2]
     message = "the third equation is 0 on the line of P_2 and P_3 but not at P_1"
     return slip(not at_first_point.terms, lines_of_figure_3().holds, "a line", message)

@@ -44,10 +44,6 @@ _SPACE = ((1, 2, 3), (2, 1, 5), (4, 4, 1), (3, 9, 2), (7, 1, 1))
 
 @claim("thesis.280", full=300)
 def error_in_program(cases: int = CASES) -> Check:
-    """Check that ERROR IN PROGRAM means a fault of program 3, unless the arithmetic has too few digits.
-
-    In exact arithmetic, the corrected procedure always ends with a hull.
-    """
     names = ("throughc.deck", "zeroplane.deck")
     ended = [typed(run_of(name)).endswith("ERROR IN PROGRAM") for name in names]
     hulls = [convex_hull([*exact_points(deck_of(name))[0].values()]) for name in names]
@@ -63,10 +59,6 @@ def error_in_program(cases: int = CASES) -> Check:
 
 @claim("thesis.282", full=300)
 def message_after_wrong_hull(cases: int = CASES) -> Check:
-    """Check that the procedure ends with the right hull in exact arithmetic, whereas a run in eight digits does not.
-
-    That run also punches the message.
-    """
     announced = any("CONVEX HULL HAS BEEN DETERMINED" in card for card in run_of("silent.deck").final.result.punched)
     punched, vertices = vertices_of("silent.deck")
     case = f"eight digits: after {len(punched)} of {len(vertices)} vertices of silent.deck, program 3 punches the line"
@@ -81,7 +73,6 @@ def _first_run(exponent: str) -> HullRun:
 
 @claim("thesis.281", full=100)
 def points_are_coplanar(cases: int = CASES) -> Check:
-    """Check which sets program 1 reports as coplanar: points in space too if the squares of differences underflow."""
     checks = []
     for sampled in flat_and_spatial_sets(cases):
         run = run_hull(data_deck([[*map(str, point)] for point in sampled.points], "sampled"), programs.program)
@@ -95,7 +86,6 @@ def points_are_coplanar(cases: int = CASES) -> Check:
 
 @claim("thesis.178")
 def underflow() -> Check:
-    """Check that multiplying the coordinates of a set by a power of ten can change the result, because of underflow."""
     hulls = [_first_run(exponent) for exponent in ("E+01", "E-17")]
     names = [run.final.name for run in hulls]
     check = two_kinds_of_error()
@@ -104,10 +94,6 @@ def underflow() -> Check:
 
 @claim("thesis.284")
 def plane_table_size() -> Check:
-    """Check that the 98 entries of the plane table are enough for any hull of 51 points: 2 N - 4 planes.
-
-    Intermediate hulls can need more entries.
-    """
     size = next(entry.size for entry in programs.program("program3").storage.arrays() if entry.name == "KK")
     hull = exact_hull([(k, k**2, k**3) for k in range(MOST_POINTS)])
     planes = len(hull.facets)
@@ -122,7 +108,6 @@ def plane_table_size() -> Check:
 
 @claim("thesis.14", "thesis.283")
 def line_table_size() -> Check:
-    """Check that the 51 entries of program 2's line table are enough for 50 points, all vertices, but not for 51."""
     size = next(entry.size for entry in programs.program("program2").storage.arrays() if entry.name == "MM")
     stages = convex_hull([(k, k * k, 0) for k in range(MOST_POINTS)], history=True).history
     # The steps to 50 and to 51 vertices add two lines before they remove one.
@@ -139,11 +124,6 @@ def line_table_size() -> Check:
 @claim("thesis.177", examples=(6,))
 @claim("thesis.285")
 def printed_hulls(examples: Iterable[int] = EXAMPLES) -> Check:
-    """Check that the hulls of examples, as printed in chapter 6, are the exact hulls of their points.
-
-    Compare the vertices, and in examples 4 to 6 the other points and the equations, with those of the exact hull. Check
-    that exactly the vertices listed for an equation satisfy it, and that program 1 prints two planes for each line.
-    """
     checks = []
     for example in examples:
         points = [tuple(map(Fraction, point)) for point in exact_points(input_deck(example))[0].values()]
@@ -160,6 +140,7 @@ def printed_hulls(examples: Iterable[int] = EXAMPLES) -> Check:
         planes: dict[tuple[int, ...], list[tuple[Fraction, ...]]] = {}
         for vertices, number in on_equation:
             planes.setdefault(vertices, []).append(hull.equations[number - 1])
+        # Program 1 prints two planes for each line.
         if last.program == 1:
             lines = {*combinations(range(1, len(hull.vertices) + 1), 2)}
             complete = planes.keys() == lines and all(len(pair) == 2 and _differ(*pair) for pair in planes.values())
@@ -182,7 +163,6 @@ def _differ(first: Sequence[Fraction], second: Sequence[Fraction]) -> bool:
 
 @claim("thesis.17")
 def possible_output() -> Check:
-    """Check that the cards printed in chapter 6 show every heading that the listings can punch."""
     printed = []
     for number in (1, 2, 3):
         program = programs.program(f"program{number}")
@@ -206,10 +186,6 @@ def _heading(item: object) -> str:
 
 @claim("thesis.279", "thesis.160", "thesis.162")
 def first_card() -> Check:
-    """Check that the first card of a deck has N in columns 1 and 2, and that N cards with three numbers follow.
-
-    The columns after the numbers are blank, also on the cards of the examples.
-    """
     deck = data_deck([["1", "2", "3"]] * 8, "eight")
     cards = [card.text.rstrip() for card in deck.cards]
     listing = programs.deck("program1").text()
@@ -241,11 +217,6 @@ _AS_WORDED = {
 @claim("thesis.86", dimensions=(2,), full=300)
 @claim("thesis.106", dimensions=(3,), full=300)
 def procedure_in_exact_arithmetic(dimensions: tuple[int, ...], cases: int = CASES) -> Check:
-    """Check that the procedure is right in exact arithmetic; in eight digits a deck of each dimension goes wrong.
-
-    A rule of chapter 3 that differs from the listing goes wrong too. For sets in space, the listing must also be
-    corrected: each of three faults makes program 3 fail for a set.
-    """
     decks = [_WRONG_IN_EIGHT_DIGITS[dimension] for dimension in dimensions]
     wrong = [run_of(deck).complete and len({*map(frozenset, vertices_of(deck))}) == 2 for deck in decks]
     case = f"eight digits: the programs punch wrong vertices for {' and '.join(decks)}"
@@ -273,7 +244,6 @@ _STEPS = {
 @claim("thesis.261", name="program2")
 @claim("thesis.262", name="program3")
 def comments_of_steps(name: str) -> Check:
-    """Check that one comment card of a program marks each of its steps."""
     comments = [card.text for card in programs.deck(name).cards if card.text.startswith("C")]
     marked = [sum(words in comment for comment in comments) == 1 for words in _STEPS[name]]
     return exhibited(all(marked), f"{len(marked)} steps of {name} are marked by comments")
@@ -286,7 +256,6 @@ def _translated(name: str) -> Program:
 
 @claim("thesis.194")
 def storage_of_translation() -> Check:
-    """Check that program 3 fits 40,000 positions as listed, but not with the translation added."""
     deck = data_deck([["0", "0", "0"], ["1", "0", "0"], ["0", "1", "0"], ["0", "0", "1"]], "four")
     Machine(programs.program("program3"), deck, Options())
     try:
@@ -298,7 +267,6 @@ def storage_of_translation() -> Check:
 
 @claim("thesis.195")
 def sign_without_products() -> Check:
-    """Check that the translation omits the statement that evaluates an equation at the inside point C for its sign."""
     at_c = {"program2": "D(J)=A(J)*C1+B(J)*C2+C(J)", "program3": "E(I)=A(I)*C1+B(I)*C2+C(I)*C3+D(I)"}
     texts = [
         {n: programs.deck(n, layer.split()).text().replace(" ", "") for n in at_c} for layer in ("", "translation")
@@ -309,15 +277,12 @@ def sign_without_products() -> Check:
 
 @claim("thesis.196")
 def total_of_translation() -> Check:
-    """Check that the translation saves operations for a set with many planes, and costs some for one with many points.
-
-    The counts are those of program 3: moving N points takes 6 N sums, and each plane of H_1 and of the result takes
-    three products and three sums.  The same number is saved for each plane that a step makes.
-    """
     tetrahedron = [(0, 0, 0), (60, 0, 0), (0, 60, 0), (0, 0, 60)]
     saved = []
     for points in ([*tetrahedron, *((k, 1, 1) for k in range(1, 40))], [(k, k**2, k**3) for k in range(20)]):
         hull = convex_hull(points, history=True)
+        # Moving N points takes 6 N sums, and each plane of H_1 and of the result three products and three sums. Each
+        # plane that a step makes saves three products and three sums.
         products = 3 * (3 * sum(stage.outside for stage in hull.history) - len(tetrahedron) - len(hull.faces))
         saved.append((products, products - 6 * len(points)))
     many_points, many_planes = saved
@@ -330,7 +295,6 @@ def total_of_translation() -> Check:
 
 @claim("thesis.192")
 def points_moved_back() -> Check:
-    """Check that the programs with the translation punch the original coordinates, not the translated ones."""
     points = [("1", "2", "3"), ("9", "2", "3"), ("1", "6", "3"), ("1", "2", "7")]
     run = run_hull(data_deck(points, "four"), _translated, Options(core=60_000))
     punched = {*read_hull(run.final.result.punched).vertices}

@@ -63,7 +63,6 @@ def programs_compile() -> Check:
 
 @claim("thesis.155")
 def cards_read_and_punched() -> Check:
-    """Check that each program reads its data from cards and punches cards."""
     words = [{line.text.split()[0] for line in programs.program(name).statements} for name in THREE]
     return exhibited(all({"READ", "PUNCH"} <= of_program for of_program in words), "all programs have READ and PUNCH")
 
@@ -75,7 +74,6 @@ def _positions(name: str) -> int:
 
 @claim("thesis.4", "thesis.153")
 def program_sizes() -> Check:
-    """Check that each program with its data fits 40,000 positions but not 20,000; the code size is estimated."""
     sizes = [_positions(name) for name in THREE]
     message = f"programs 1 to 3 need about {', '.join(map(str, sizes))} positions, by an estimate"
     return exhibited(SMALLER_CORE < max(sizes) <= CORE, message)
@@ -83,7 +81,6 @@ def program_sizes() -> Check:
 
 @claim("thesis.14")
 def fifty_one_points() -> Check:
-    """Check that the programs find a hull of 51 points, their arrays' size; a deck of fewer overflows a table."""
     points, _ = exact_points(deck_of("table.deck"))
     arrays = [{entry.name: entry.size for entry in programs.program(name).storage.arrays()} for name in THREE]
     most = entries_of_plane_table()
@@ -123,7 +120,6 @@ def plane_through_c() -> Check:
 
 @claim("thesis.83", "thesis.84")
 def truncated_roots() -> Check:
-    """Check that distances in eight digits can add up wrongly, and that the listing omits a vertex of a deck."""
     sums = {}
     for name in ("exact", "truncating"):
         # The first of these three points is not the middle one.
@@ -146,7 +142,6 @@ def vertices_of(name: str) -> tuple[set[int], set[int]]:
 
 @claim("thesis.159")
 def silent_loss() -> Check:
-    """Check four five-digit points for which the listing punches a wrong hull without a message."""
     punched, judge = vertices_of("silent.deck")
     message = typed(run_of("silent.deck"))
     passed = punched != judge and "NOT ACCEPTABLE" not in message
@@ -155,7 +150,6 @@ def silent_loss() -> Check:
 
 @claim("thesis.65")
 def notation() -> Check:
-    """Check that programs 2 and 3 use most symbols of pages 17 to 31, among them NE, NETC, NV, MM, NN and KK."""
     text = "".join(programs.deck(name).text() for name in THREE[1:])
     symbols = "NETC NE NV MM NN KK N A B C D X Y Z C1 C2 U N1 D1 D2 D3".split()
     names = [symbol for symbol in symbols if re.search(rf"\b{symbol} *[(=]", text)]
@@ -165,7 +159,6 @@ def notation() -> Check:
 
 @claim("thesis.263")
 def inside_heading() -> Check:
-    """Check that program 3 punches FORMAT 5, the heading of inside points, only once."""
     cards = [card.text.strip() for card in programs.deck("program3").cards]
     place = next(k for k, card in enumerate(cards) if card.endswith("PUNCH 5"))
     heading = next(card for card in cards if card.startswith("5 FORMAT"))
@@ -176,7 +169,6 @@ def inside_heading() -> Check:
 
 @claim("thesis.249")
 def two_kinds_of_error() -> Check:
-    """Check that eight-digit arithmetic truncates coordinates and also the coefficients of a plane."""
     third = coordinate_field("0.333333333", truncate=True)
     cut, exact = (_coefficients(_THREE, arithmetic) for arithmetic in ("truncating", "exact"))
     exact_coefficients = [*map(Fraction, plane_through(*_THREE))]
@@ -198,10 +190,6 @@ SEVENTHS: Generator[tuple[Point, ...]] = Generator(
 
 @claim("thesis.180", full=200)
 def hull_of_approximations(cases: int = 3) -> Check:
-    """Check that, in exact arithmetic, the procedure finds the hull of points that approximate given points.
-
-    The coordinates need more than eight digits and are truncated on cards.
-    """
     found = []
 
     def approximates(sevenths: tuple[Point, ...]) -> bool:
@@ -223,7 +211,6 @@ def hull_of_approximations(cases: int = 3) -> Check:
 
 @claim("thesis.248", "thesis.183")
 def errors_of_machine() -> Check:
-    """Check that in eight digits three points may not satisfy the equation of their own plane."""
     passed = bool(_misses(_THREE)) and not _misses(_THREE, "exact")
     message = "three points do not satisfy the equation of their plane in eight digits, but do so in exact arithmetic"
     return exhibited(passed and two_kinds_of_error().holds, message)
@@ -231,7 +218,6 @@ def errors_of_machine() -> Check:
 
 @claim("thesis.179")
 def errors_on_any_computer() -> Check:
-    """Prove that any fixed number of digits makes errors of both kinds, and check that exact arithmetic does not."""
     argument = (
         "Let numbers have p digits in base b, and let B = b^p be more than 2. The square of B - 1 is B (B - 2) + 1. "
         "It has more than p digits and does not end with 0. The coordinate 1 / (b + 1) has infinitely many digits"
@@ -259,7 +245,6 @@ def _misses(points: tuple[Point, ...], name: str = "truncating") -> list[int]:
 
 @claim("thesis.185")
 def fourth_point_off_plane() -> Check:
-    """Check that in eight digits a fourth point that lies in the plane of three others can miss that plane."""
     exactly = not plane_value(plane_through(*_FOURTH[:3]), _FOURTH[3])
     message = f"{_FOURTH[3]} lies exactly in the plane of the other three points, but misses it in eight digits"
     return exhibited(exactly and _misses(_FOURTH) == [3], message)
@@ -267,7 +252,6 @@ def fourth_point_off_plane() -> Check:
 
 @claim("thesis.184")
 def programs_rejecting_data() -> Check:
-    """Check that program 3 rejects a set if three points miss their own plane, and three cases without rejection."""
     has = [name for name in THREE if "DATA NOT ACCEPTABLE" in programs.deck(name).text()]
     deck = data_deck([[*map(str, point)] for point in _REJECTED], "rejected")
     run = run_hull(deck, programs.program)
@@ -292,7 +276,7 @@ def programs_rejecting_data() -> Check:
 
 @claim("thesis.250", "thesis.187")
 def vertex_within_interval() -> Check:
-    """Check that the tolerance e = 10 puts a vertex into a plane a tenth below, where 16x + 16y + 16z - 64 is 3.2."""
+    # The last point is above the plane of three others, where 16x + 16y + 16z - 64 is 3.2.
     points = [("0", "0", "0"), ("4", "0", "0"), ("0", "4", "0"), ("0", "0", "4"), ("1.4", "1.4", "1.4")]
     exact, with_epsilon = convex_hull(points), convex_hull(points, epsilon="10")
     message = "(1.4, 1.4, 1.4) is a vertex in exact arithmetic, but a boundary point with the tolerance e = 10"
@@ -302,7 +286,6 @@ def vertex_within_interval() -> Check:
 
 @claim("thesis.186")
 def interval_instead_of_rejection() -> Check:
-    """Check that the tolerance e = 10 turns a rejection into the right hull."""
     points = [tuple(map(str, point)) for point in _REJECTED]
     without, hull = (convex_hull(points, "truncating", epsilon=e, on_refusal="return") for e in (None, "10"))
     right = hull.determined and {*hull.vertices} == {*exact_hull(_REJECTED).vertices}
@@ -311,7 +294,6 @@ def interval_instead_of_rejection() -> Check:
 
 @claim("thesis.188")
 def value_against_distance() -> Check:
-    """Check that the value of an equation is the distance times the length of (A, B, C), which can be 1/100."""
     csv_rows, _ = csv_points(counterexample("short_normal.csv"), "short_normal.csv")
     p, q, r, x = (tuple(map(Fraction, map(str, point))) for point in csv_rows)
     a, b, c, d = plane(p, q, r)  # type: ignore[arg-type]
@@ -330,10 +312,6 @@ def value_against_distance() -> Check:
 
 @claim("thesis.93", "thesis.189", full=300)
 def orientation_by_c(cases: int = CASES) -> Check:
-    """Check that all planes of each H_j, oriented outward, are negative at the inside point C.
-
-    A plane that the program makes and eliminates later may pass through C.
-    """
     checks = []
     for sampled in sampled_sets(3, cases):
         added = sampled.hull.history[0].added
@@ -353,11 +331,6 @@ def _sum(points: tuple[Point, ...], which: tuple[int, ...]) -> tuple[int, int, i
 
 @claim("thesis.190", full=300)
 def orientation_by_constant_term(cases: int = CASES) -> Check:
-    """Check that moving the origin to the inside point C gives a plane's constant term the sign of its value at C.
-
-    If a plane passes through C, both are 0. The planes are those of all H_j and of all triples of the first five
-    points.
-    """
     checks = []
     for sampled in sampled_sets(3, cases):
         added = sampled.hull.history[0].added
@@ -376,10 +349,7 @@ def orientation_by_constant_term(cases: int = CASES) -> Check:
 @claim("thesis.163", part="digits")
 @claim("thesis.161", part="columns")
 def data_sheet(part: str) -> Check:
-    """Check the sample cards of pages 58 and 59.
-
-    part: ``values``, the numbers; ``digits``, the number of digits; ``columns``, the columns of the fields.
-    """
+    """Check the numbers, the digits of a number, or the columns of the fields of the cards on pages 58 and 59."""
     if part == "columns":
         z = max(z for _, _, z in read_hull(run_of("z_in_39.deck").final.result.punched).vertices)
         deck = data_deck([["3", "12", "1"]], "one")

@@ -43,7 +43,6 @@ def _all_zero(says: str, values: Iterable[Polynomial]) -> tuple[Step, ...]:
 
 
 def three_points() -> Proof:
-    """Prove that any three points are in one plane."""
     *normal, d = _plane(P, Q, X)
     return Proof(
         "three points lie in a plane",
@@ -53,7 +52,6 @@ def three_points() -> Proof:
 
 
 def one_or_two_points() -> Proof:
-    """Prove that neither of two distinct points is a convex combination of both unless the other has the weight 0."""
     way = minus(Q, P)
     (weight,) = variables("lambda")
     step = Step(
@@ -76,7 +74,6 @@ def one_or_two_points() -> Proof:
 
 
 def different_z() -> Proof:
-    """Prove that distinct points with the same x and the same y have different z."""
     dx, dy, dz = minus(P, Q)
     step = Step(
         "z differs",
@@ -88,10 +85,6 @@ def different_z() -> Proof:
 
 
 def equations_of_line() -> Proof:
-    """Prove that two points with different x are on one line with all points that satisfy (3.1) and (3.2).
-
-    The same is proved of different y with (3.1) and (3.3), and of different z with (3.2) and (3.3).
-    """
     u = minus(Q, P)
     product = cross(u, minus(X, P))
     printed = [
@@ -119,7 +112,6 @@ def equations_of_line() -> Proof:
 
 
 def coordinate_planes() -> Proof:
-    """Prove that the equation of a coordinate plane has only one nonzero coefficient."""
     planes = [_plane(_with_0(P, axis), _with_0(Q, axis), _with_0(X, axis)) for axis in range(3)]
     others = [c for axis, plane in enumerate(planes) for k, c in enumerate(plane) if k != axis]
     return Proof(
@@ -131,7 +123,6 @@ def coordinate_planes() -> Proof:
 
 
 def perpendicular_projection() -> Proof:
-    """Prove that a coefficient of a triangle's plane is the area of its projection on a coordinate plane."""
     *normal, _ = _plane(P, Q, X)
     pairs = (1, 2), (2, 0), (0, 1)
     images = [bracket(*((p[i], p[j]) for p in (P, Q, X))) for i, j in pairs]
@@ -145,7 +136,6 @@ def perpendicular_projection() -> Proof:
 
 
 def projection_along_axis() -> Proof:
-    """Prove that setting a coordinate to 0 gives the foot of the perpendicular on a coordinate plane."""
     ways = [(minus(P, _with_0(P, axis)), _with_0(Q, axis)) for axis in range(3)]
     return Proof(
         "setting a coordinate to 0 projects a point to a coordinate plane",
@@ -155,7 +145,6 @@ def projection_along_axis() -> Proof:
 
 
 def coordinates_of_figure_3() -> Proof:
-    """Prove that a triangle can have P_3 at the origin and the side P_1 P_2 parallel to the y axis."""
     third, way = point("r", 2), minus(point("q", 2), point("p", 2))
     moved = {name: (turn(way, u), dot(way, u)) for name in "pqrx" for u in [minus(point(name, 2), third)]}
     image, original = moved["x"], minus(point("x", 2), third)
@@ -179,13 +168,11 @@ def _c_0(a: Point, b: Point, k: Point) -> Polynomial:
 
 
 def coefficient_c_0() -> Proof:
-    """Prove that the sum C_0 of page 46 is the coefficient C that equation (3.4) gives."""
     *_, c, _ = _plane(P, Q, X)
     return Proof("C_0 is the C of (3.4)", "Both are the same polynomial.", _all_zero("C_0 = C", [_c_0(P, Q, X) - c]))
 
 
 def other_letters() -> Proof:
-    """Prove that the sum C_0 of page 46 becomes -B if y is replaced by z, and -A if x is replaced by z."""
     a, b, *_ = _plane(P, Q, X)
     with_z = [_c_0(*((p[i], p[j]) for p in (P, Q, X))) for i, j in ((0, 2), (2, 1))]
     return Proof(
@@ -211,7 +198,6 @@ def proof_of_identity(proof: Callable[[], Proof]) -> Check:
 
 @claim("thesis.129")
 def sum_of_page_46() -> Check:
-    """Check that the printed sum of page 46 is 0 as claimed, but has other terms than the substitution gives."""
     xa, ya, xb, yb, share = variables("x_a y_a x_b y_b lambda")
     rest = 1 - share
     k = (rest * xa + share * xb, rest * ya + share * yb)
@@ -235,10 +221,6 @@ def _v(x: Point, i: Point) -> Polynomial:
 
 @claim("thesis.50")
 def display_of_page_14() -> Check:
-    """Check that the formula for V on page 14 is wrong in the OCR text, which has the index 1.
-
-    V is then not 0 on the line.
-    """
     names = ("p", "q", "x")
     at = dict(zip(names, counterexample_points("v_as_our_text.csv"), strict=True))
     values = {f"{name}_{axis}": c for name in names for axis, c in zip("xyz", at[name], strict=True)}
@@ -248,17 +230,12 @@ def display_of_page_14() -> Check:
 
 @claim("thesis.287")
 def display_of_page_41() -> Check:
-    """Check that the formula for V on page 41 is wrong in the OCR text, which has the index 1 in place of every i.
-
-    V is then 0 at every point.
-    """
     is_wrong = not _v(P, P).terms
     return theorem_4_3().check().misprinted(is_wrong, "i for 1 in the differences from the point i")
 
 
 @claim("thesis.120")
 def determinants_of_page_41() -> Check:
-    """Check that the squared distance is the sum of three squared determinants, without the fourth of the OCR text."""
     way, cosines = minus(Q, X), point("cosine", 3)
     rows = cross(way, cosines)
     of_foot = dot(way, way) * dot(cosines, cosines) - dot(way, cosines) * dot(way, cosines)
@@ -274,7 +251,6 @@ def determinants_of_page_41() -> Check:
 
 @claim("thesis.234")
 def displays_of_page_42() -> Check:
-    """Check that the formula for the squared distance on page 42 is wrong with the signs that the OCR text has lost."""
     (_, ux, uy, uz), (_, wy, _) = (0, *minus(Q, P)), minus(Q, X)
     as_text = (wy * uz - uz * uy) * (wy * uz - uz * uy) + 2 * (ux * uy - uy * uz) * (ux * uy - uy * uz)
     is_wrong = (as_text - _v(X, X)).terms

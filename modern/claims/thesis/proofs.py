@@ -33,7 +33,6 @@ from modern.claims.evidence import Check, claim
 
 
 def theorem_4_3() -> Proof:
-    """Prove that V orders points by their distance d from the line through p and q: d^2 D^2 = V."""
     p, q, x = point("p", 3), point("q", 3), point("x", 3)
     (t,) = variables("t")
     u, w = minus(q, p), minus(q, x)
@@ -100,7 +99,6 @@ def _sum(name: str, squares: tuple[Polynomial, ...]) -> tuple[Term, ...]:
 
 
 def theorem_4_4() -> Proof:
-    """Prove that dropping a coordinate keeps the vertices unless its axis is parallel to the plane of the points."""
     k, a, b = point("k", 3), point("a", 3), point("b", 3)
     normal = variables("A B C")
     d, share = variables("D lambda")
@@ -149,7 +147,6 @@ def theorem_4_4() -> Proof:
 
 
 def theorem_4_6() -> Proof:
-    """Prove that the value of A x + B y + C orders the points on its positive side by their distance from the line."""
     (x, y), (s, t) = point("p", 2), point("foot", 2)
     a, b, c, v_m, v_j, d_m, d_j, square = variables("A B C v_m v_j d_m^2 d_j^2 A^2+B^2")
     value, on_line = a * x + b * y + c, a * s + b * t + c
@@ -208,7 +205,6 @@ def _boundary_steps() -> Iterator[Step]:
 
 
 def theorem_4_7() -> Proof:
-    """Prove that no point of a flat set is outside two lines of the same H_j."""
     a, b, c, d, h, v = (point(name, 2) for name in "abcdhv")
     between = turn(minus(b, a), minus(d, c))
     weights = -bracket(a, b, h), -bracket(c, a, h), bracket(c, a, b)
@@ -277,7 +273,6 @@ def theorem_4_7() -> Proof:
 
 
 def theorem_4_5() -> Proof:
-    """Prove that each H_j in the plane is the hull of its vertices."""
     a, b, c, d, p, v, x = (point(name, 2) for name in "abcdpvx")
     outer = positive(-bracket(a, b, p))
     weights = bracket(p, b, x), bracket(a, p, x), -bracket(a, b, x)

@@ -103,7 +103,6 @@ def algorithm_as_printed(name: str) -> Check:
 
 @claim("yau-srihari.1")
 def minimum_not_unique() -> Check:
-    """Check that two voxels with a common edge are in two smallest digitally convex solids of three voxels."""
     both: list[Point] = [(0, 0, 0), (1, 1, 0)]
     least = [is_digitally_convex(array_of([*both, third])) for third in ((1, 0, 0), (0, 1, 0))]
     message = "two voxels with a common edge are not convex, but either of two others makes them so"
@@ -112,14 +111,12 @@ def minimum_not_unique() -> Check:
 
 @claim("yau-srihari.48", "yau-srihari.53", "yau-srihari.54", "yau-srihari.59", "yau-srihari.103", full=500)
 def envelopes_against_judge(cases: int = 3) -> Check:
-    """Check that the envelopes consist of faces of the exact hull and have its digital points between them."""
     message = "the envelopes are the lower and upper faces of the exact hull, with its digital points between them"
     return search(SOLIDS, _envelopes_agree, cases, message)
 
 
 @claim("yau-srihari.49", full=500)
 def digital_hull_by_envelopes(cases: int = 3) -> Check:
-    """Check that the points between the envelopes are the digital hull, unless they do not form a digital solid."""
     disconnected = disconnected_hull()
     return envelopes_against_judge(cases).unless(not disconnected.holds, f"a path of stairs: {disconnected.message}")
 
@@ -128,7 +125,6 @@ def digital_hull_by_envelopes(cases: int = 3) -> Check:
 @claim("yau-srihari.68", names="angle bound", full=400)
 @claim("yau-srihari.125", "yau-srihari.106", names="marks", full=400)
 def corrected_step(names: str, cases: int = 2) -> Check:
-    """Check that the corrected algorithm gives the digital points of the hull, but no step as printed alone does."""
     as_printed = {name: algorithm_as_printed(name) for name in names.split()}
     case = "; ".join(f"{name}: {step.message}" for name, step in as_printed.items())
     return envelopes_against_judge(cases).unless(not any(step.holds for step in as_printed.values()), case)
@@ -136,7 +132,6 @@ def corrected_step(names: str, cases: int = 2) -> Check:
 
 @claim("yau-srihari.36")
 def disconnected_hull() -> Check:
-    """Check the counterexample: the hull of nine connected voxels contains a voxel that has no neighbour in it."""
     stairs = counterexample_points("yau_stairs.csv")
     hull = octree_hull(array_of(stairs))
     (x, y, z), (u, v, w) = stairs[0], stairs[-1]
@@ -151,8 +146,6 @@ def disconnected_hull() -> Check:
 
 @claim("yau-srihari.5")
 def solid_from_deficiency(cases: int = 3) -> Check:
-    """Check that a solid is its digital hull without its convex deficiency."""
-
     def is_described(voxels: tuple[Point, ...]) -> object:
         solid = array_of(voxels)
         return np.array_equal(hull_of(voxels).filled & ~convex_deficiency(solid), solid)
@@ -162,11 +155,6 @@ def solid_from_deficiency(cases: int = 3) -> Check:
 
 @claim("yau-srihari.35")
 def smallest_convex_solid() -> Check:
-    """Check that the digital points of a solid's hull form a convex solid, but not for every solid.
-
-    A path of six voxels contains all digital points of its hull but is not convex by the test. Two solids of seven
-    voxels that contain the path pass, so there is no smallest one.
-    """
     hull = hull_of(SOLID)
     passed = hull.components == 1 and is_simple(hull.filled) and is_digitally_convex(hull.filled)
     path, middle = counterexample_points("yau_path.csv"), (Fraction(1), Fraction(1, 2), Fraction(1))
@@ -185,7 +173,6 @@ def smallest_convex_solid() -> Check:
 
 @claim("yau-srihari.50")
 def floor_and_ceiling() -> Check:
-    """Check that alpha, the smallest z of each column, is the floor and beta, the largest, is the ceiling."""
     columns = {(x, y): sorted(z for a, b, z in SOLID if (a, b) == (x, y)) for x, y, _ in SOLID}
     alpha, beta = ({at: zs[k] for at, zs in columns.items()} for k in (0, -1))
     floor, ceiling = dict(hull_of(SOLID).floor), dict(hull_of(SOLID).ceiling)
@@ -196,8 +183,6 @@ def floor_and_ceiling() -> Check:
 
 @claim("yau-srihari.55", "yau-srihari.56", full=500)
 def supporting_planes(cases: int = 5) -> Check:
-    """Check that each plane that supports the floor, not from above, contains a vertex of the envelope and floor."""
-
     def touch(voxels: tuple[Point, ...]) -> bool:
         hull = hull_of(voxels)
         floor, vertices = {(*at, z) for at, z in hull.floor.items()}, {v for f in hull.lower.faces for v in f.vertices}
@@ -224,8 +209,6 @@ def rule_1(cases: int = 5) -> Check:
 
 @claim("yau-srihari.76", full=500)
 def first_and_last_heights(cases: int = 5) -> Check:
-    """Check that the first leaf over a column gives its floor and the last one its ceiling, if sons are in order."""
-
     def agree(voxels: tuple[Point, ...]) -> bool:
         hull = hull_of(voxels)
         leaves = []
@@ -243,7 +226,6 @@ def first_and_last_heights(cases: int = 5) -> Check:
 
 @claim("yau-srihari.100", full=400)
 def triangles_of_a_hull(cases: int = CASES) -> Check:
-    """Check that three points are a face if and only if their plane supports, unless it contains a fourth point."""
     outcomes, sets = [], 0
     for sampled in sampled_sets(3, 4 * cases):
         points = sampled.points[:6]
@@ -262,7 +244,6 @@ def triangles_of_a_hull(cases: int = CASES) -> Check:
 
 @claim("yau-srihari.99")
 def another_vertex() -> Check:
-    """Check that the face v3 v2 v1 of theorem 2, as printed, is only the known face with the opposite normal."""
     lower = hull_of(SOLID).lower
     reversed_ = [normal_of(*reversed(face.vertices[:3])) for face in lower.faces]
     # The construction finds each face on an edge of another face.
@@ -276,7 +257,6 @@ def another_vertex() -> Check:
 
 @claim("yau-srihari.90")
 def epigraph_at_inner_nodes() -> Check:
-    """Check that a column of voxels is full from its height upward, but not a larger node by the printed rule."""
     outcomes, too_full = [], []
     for tops in product(range(3), repeat=4):
         tree = written(no_columns(2), {divmod(k, 2): Leaf(top) for k, top in enumerate(tops)})

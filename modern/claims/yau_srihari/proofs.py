@@ -35,7 +35,6 @@ def combination_above() -> Step:
 
 
 def hull_is_convex() -> Proof:
-    """Prove that the combinations of points are the smallest convex set that contains the points, their hull."""
     m, k, w = variables("m k w")
     weights = {"w": not_negative(w), "k": not_negative(k), "m": not_negative(m), "rest": not_negative(1 - m)}
     new_weight = not_negative((1 - m) * w + m * k)
@@ -54,7 +53,6 @@ def hull_is_convex() -> Proof:
 
 
 def convex_epigraph() -> Proof:
-    """Prove that a function is convex if and only if its epigraph, the set on and above its graph, is convex."""
     return Proof(
         "a function is convex if and only if the set on and above its graph is, and similarly for concave functions",
         "By definition, f is convex if and only if no segment between two points of its graph is below the graph. If f "
@@ -67,7 +65,6 @@ def convex_epigraph() -> Proof:
 
 
 def negative_is_concave() -> Proof:
-    """Prove that the negative of a convex function is concave, and the negative of a concave function convex."""
     m, f_x, f_y, f_between = variables("m f_x f_y f_between")
     convex = {"convex": not_negative((1 - m) * f_x + m * f_y - f_between)}
     concave = not_negative(-f_between - (1 - m) * -f_x - m * -f_y)
@@ -79,7 +76,6 @@ def negative_is_concave() -> Proof:
 
 
 def theorem_1() -> Proof:
-    """Prove that the Euclidean hull consists of the points between the envelopes of the floor and of the ceiling."""
     low, high, z = variables("low high z")
     between = zero((high - low) * z - (high - z) * low - (z - low) * high)
     return Proof(
@@ -99,7 +95,6 @@ def theorem_1() -> Proof:
 
 
 def theorem_2() -> Proof:
-    """Prove theorem 2 for the interior dihedral angle, which is 180 degrees minus the angle of the outward normals."""
     f, u, w, up = (point(name, 2) for name in ("f", "u", "w", "up"))
     # Cotangents decrease from 0 to 180 degrees; this is their difference times both positive denominators.
     cotangents = dot(f, w) * turn(f, u) - dot(f, u) * turn(f, w)
@@ -134,7 +129,6 @@ def theorem_2() -> Proof:
 
 
 def normal_of_starting_face() -> Proof:
-    """Prove that the normal of a starting face, from an edge to a point above its first end, has integer components."""
     start, end, (c,) = point("w", 3), point("u", 3), variables("c")
     normal, (dx, dy, _) = cross(minus(end, start), (0 * c, 0 * c, c)), minus(end, start)
     return Proof(
@@ -145,7 +139,6 @@ def normal_of_starting_face() -> Proof:
 
 
 def number_of_pairs() -> Proof:
-    """Prove that n points have n (n - 1) / 2 pairs."""
     (n,) = variables("n")
     return Proof(
         "n points have n (n - 1) / 2 pairs",
@@ -157,7 +150,6 @@ def number_of_pairs() -> Proof:
 
 @claim("yau-srihari.61")
 def angle_of_theorem_2() -> Check:
-    """Check that theorem 2 is true of the interior dihedral angle, but not as printed, of the outward normals."""
     as_printed = algorithm_as_printed("angle")
     return theorem_2().check().misprinted(not as_printed.holds, "psi as the interior dihedral angle of p and q")
 

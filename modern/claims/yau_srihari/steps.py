@@ -21,7 +21,6 @@ from modern.papers.yau_srihari.search import Search
 
 @claim("yau-srihari.29")
 def simple_with_a_tunnel() -> Check:
-    """Check that a ring of twelve voxels is simple by the definition, although it has a tunnel."""
     array = array_of(counterexample_points("tunnel.csv"))
     cells: set[Point] = set()
     for x, y, z in np.argwhere(array).tolist():
@@ -33,7 +32,6 @@ def simple_with_a_tunnel() -> Check:
 
 @claim("yau-srihari.85", full=500)
 def queued_edges_reversed(cases: int = 3) -> Check:
-    """Check that a face enters an edge into the queue in one direction and removes it in the reverse direction."""
     same, reverse, neither = 0, 0, 0
     for voxels in SOLIDS.cases(cases):
         hull = hull_of(voxels)
@@ -53,10 +51,6 @@ def queued_edges_reversed(cases: int = 3) -> Check:
 @claim("yau-srihari.51", full=400, of_ceiling=False)
 @claim("yau-srihari.52", full=400, of_ceiling=True)
 def envelope_algorithm(of_ceiling: bool, cases: int = 2) -> Check:
-    """Check that the corrected algorithm gives the envelopes, but not if one of its corrections is left out.
-
-    Truncation gives right heights of the negated ceiling, because these are not positive.
-    """
     needed = [name for name in NAMES if not of_ceiling or name != "truncation"]
     wrong = all(_is_wrong(name, of_ceiling) == (name in needed) for name in NAMES)
     directed = queued_edges_reversed().evidence.violation
@@ -81,14 +75,11 @@ FLOORS: Generator[tuple[Point, ...]] = Generator("floors of about 13 columns of 
 
 @claim("yau-srihari.64", full=1_000)
 def extreme_in_row_and_column(cases: int = 6) -> Check:
-    """Check that the vertices of a floor's lower hull are extreme in their rows and columns, and remain in the set A.
-
-    The set A has the points that are extreme in their columns among the points that are extreme in their rows.
-    """
     checks = []
     for floor_ in FLOORS.cases(cases):
         heights_ = {(x, y): z for x, y, z in floor_}
         extreme_in_both = {place for place in heights_ if all(_extreme(place, axis, heights_) for axis in (0, 1))}
+        # The set A has the points that are extreme in their columns among the points that are extreme in their rows.
         after_first = {place: z for place, z in heights_.items() if _extreme(place, 1, heights_)}
         after_both = {place for place in after_first if _extreme(place, 0, after_first)}
         tree = written(no_columns(4), {place: Leaf(z) for place, z in heights_.items()})
@@ -119,7 +110,6 @@ class _Counted(Search):
 
 @claim("yau-srihari.129", full=100)
 def angle_counts(cases: int = 3) -> Check:
-    """Count the angles that the search of the quadtree computes, also for the floor of a ball of diameter 8."""
     balls = ball(8, VERTEX).array
     counts = [_angles(octree_hull(array)) for array in (balls, *map(array_of, SOLIDS.cases(cases)))]
     (whole, preprocessed, by_search, with_bounds), *_ = counts
