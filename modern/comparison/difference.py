@@ -24,12 +24,14 @@ NEAR = Fraction(1, 1000)
 class Disagreement:
     """The differences between a computed hull and the exact hull of the same points.  Points are input indices.
 
-    ``missed`` points are vertices only of the exact hull, ``added`` points only of the computed hull.  ``misfiled``
-    points have the wrong class, boundary or inside.  ``error`` is the largest error of a coefficient among the matched
-    equations.  The errors of A, B and C are relative to the largest of these three coefficients, the error of D to the
-    largest of all four.  ``excluded`` is the largest distance by which an input point, ``excluded_point``, is outside
-    of an equation, to about twelve digits.  ``places`` has for each equation of the computed hull the index of the
-    exact equation that it matches, or -1.
+    ``missed`` has the points that are vertices of the exact hull but not of the computed hull, and ``added`` the
+    vertices of the computed hull that are not vertices of the exact hull.  ``misfiled`` has the points that the
+    computed hull puts into the wrong class: boundary points among the inside points, or inside points among the
+    boundary points.  ``error`` is the largest error of a coefficient among the matched equations.  The errors of A, B
+    and C are relative to the largest of these three coefficients, the error of D to the largest of all four.
+    ``excluded`` is the largest distance by which an input point is outside of the plane or line of a computed equation,
+    to about twelve digits, and ``excluded_point`` is this point.  ``places`` has for each equation of the computed hull
+    the index of the exact equation that it matches, or -1.
     """
 
     missed: frozenset[int]
@@ -121,7 +123,7 @@ def _match(equations: Sequence[Equation], exact: Sequence[Equation]) -> list[_Ma
 
 
 def _scaled(equation: Equation) -> Equation:
-    """Divide an equation by its largest coefficient of x, y or z.  If these are all zero, it stays unchanged."""
+    """Divide an equation by its largest coefficient of x, y or z.  If these are zero, return the equation unchanged."""
     size = max(abs(c) for c in equation[:3])
     return equation if not size else tuple(c / size for c in equation)  # type: ignore[return-value]
 
@@ -161,16 +163,17 @@ def _root(square: Fraction) -> Fraction:
 
 
 class UnrelatedCards(EmulatorError):
-    """Raised for cards that hold no hull, or the hull of other points; the message is one line."""
+    """Raised if cards hold no hull, or the hull of points other than the expected ones; the message is one line."""
 
 
 @dataclass(frozen=True, slots=True)
 class CardDifferences:
     """The differences between a hull on punched cards and the exact hull: missing and false vertices and faces.
 
-    ``missed`` and ``added`` are vertices, and ``not_found`` are faces of the exact hull.  ``polygons`` has for each
-    false face on the cards the vertices that the cards name for it.  A false face with fewer than two vertices cannot
-    be drawn; ``others`` is the number of such faces.
+    ``missed`` has the vertices of the exact hull that are not vertices on the cards, ``added`` the vertices on the
+    cards that are not vertices of the exact hull, and ``not_found`` the faces of the exact hull that the cards lack.
+    ``polygons`` has for each false face on the cards the vertices that the cards name for it.  A false face with fewer
+    than two vertices cannot be drawn; ``others`` is the number of such faces.
     """
 
     missed: tuple[int, ...] = ()
@@ -181,7 +184,7 @@ class CardDifferences:
 
 
 def card_differences(cards: CardHull, hull: Hull, source: str) -> CardDifferences:
-    """Compare the cards of the file ``source`` with the exact hull.  Raise UnrelatedCards for other points."""
+    """Compare the cards of the file ``source`` with the exact hull.  Raise UnrelatedCards if they have other points."""
     if not cards.vertices:
         raise UnrelatedCards(f"{source}: these cards have no vertices; 'hull1620 hull' punches cards that have them")
     points = [tuple(Fraction(number) for number in point) for point in hull.points]

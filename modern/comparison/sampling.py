@@ -52,8 +52,8 @@ class DecisionShares:
     """The decisions of an IF on floating-point numbers in the random runs.
 
     ``times`` is the number of its executions, and ``disputed`` the number of executions at which the runs disagreed.
-    The first of these is execution ``time``.  ``shares`` are the numbers of runs with a negative, a zero and a positive
-    value there, and ``taken`` is the sign whose branch was taken.
+    The first disputed execution is the one with the number ``time``.  ``shares`` has the numbers of runs in which the
+    tested value was negative, zero and positive at this execution, and ``taken`` is the sign whose branch was taken.
     """
 
     line: Line
@@ -96,10 +96,10 @@ class _Votes:
 
 
 def sampled(studied: Numbers, runs: int = 10, seed: int = 1, rules: str = "") -> SampledNumbers:
-    """Return the arithmetic of several random runs in step, with the digits of ``studied`` (eight if that is exact).
+    """Return an arithmetic for several random runs in step, with as many digits as ``studied`` (eight if it is exact).
 
-    ``rules`` is the end of the name: ``:proportional``, ``:majority``, both in this order, or nothing.  Raise
-    ArgumentError if a seed is out of range.
+    ``rules`` is the end of the arithmetic's name: ``:proportional``, ``:majority``, both in this order, or nothing.
+    Raise ArgumentError if a seed is out of range.
     """
     width = "8"
     if isinstance(studied, SampledNumbers):
@@ -120,7 +120,7 @@ def in_step(
     options: Options | None = None,
     operator: Callable[[], Operator] = Operator,
 ) -> Sampling:
-    """Run a program N times at once with random rounding, where all runs follow one branch.
+    """Run a program N times at once with random rounding.  At every IF, all runs take the same branch.
 
     Raise CardError or DeckError for an invalid deck.
     """
@@ -161,7 +161,7 @@ def _fraction(value: Fraction | int | None) -> Fraction | None:
 
 
 def _vote(votes: _Votes, signs: Sequence[int], branch: Sequence[int], taken: int) -> None:
-    """Count an execution of an IF, as disputed if a run would take another branch than the common branch."""
+    """Count an execution of an IF.  It counts as disputed if a run alone would not take the common branch."""
     votes.times += 1
     if {branch[1 + sign] for sign in signs} != {branch[1 + taken]}:
         votes.disputed += 1

@@ -27,7 +27,8 @@ class Sensitivity:
     """The effect on a program's output of changing one number on a card by one unit in its last digit.
 
     ``change`` is the largest relative change of a printed number, and ``record`` the number of its record, from 1.
-    Both are None if nothing changes.  ``branches`` is True if the run prints records of another form or ends otherwise.
+    Both are None if nothing changes.  ``branches`` is True if the changed number makes the run print records of another
+    form or end in another way.
     """
 
     card: int
@@ -50,9 +51,10 @@ def shape_of(texts: Sequence[str]) -> list[str]:
 
 
 def sensitivities(machine: Machine, result: Result, most: int = 200) -> tuple[list[Sensitivity], int]:
-    """Return the sensitivities to the first ``most`` floating-point numbers of a deck, and the number of the others.
+    """Return the sensitivity to each of a deck's first ``most`` floating-point numbers, and the number of further ones.
 
-    ``machine`` has run the program on the deck in the reference arithmetic, with this result.
+    ``machine`` has already run the program on the deck in the reference arithmetic, and ``result`` is the result of
+    that run.
     """
     program, deck, base = machine.program, machine.deck, machine.options
     rows = []

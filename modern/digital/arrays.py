@@ -48,7 +48,8 @@ def parse_npy(data: bytes, source: str) -> NDArray[Any]:
 def parse_npz(data: bytes, source: str, name: str | None = None) -> NDArray[Any]:
     """Return the array called ``name`` of an NPZ file, or its only array if ``name`` is None.
 
-    Raise VolumeError if the file has no such array or several arrays without ``name``, or as ``parse_npy`` does.
+    Raise VolumeError if the file has no such array, if it has several arrays and ``name`` is None, and in the cases in
+    which ``parse_npy`` raises it.
     """
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as packed:
@@ -113,7 +114,7 @@ def check_size(shape: Sequence[int], source: str) -> None:
 
 
 def _as_truth(array: NDArray[Any]) -> NDArray[Any]:
-    """Convert the bytes of truth values to 0 and 1, because numpy assumes that they are 0 or 1."""
+    """Convert the bytes of truth values to 0 and 1. A file may hold others, but numpy assumes 0 or 1."""
     return array.view(np.uint8) != 0 if array.dtype == np.bool_ else array
 
 

@@ -110,8 +110,9 @@ BATCH = 1 << 20
 def below_faces(faces: Iterable[tuple[Grid, Plane]], shape: tuple[int, int]) -> tuple[Grid, Grid]:
     """Return the lowest and highest grid point of a polyhedron at each position (x, y) of a grid of this shape.
 
-    A face has its vertices, shape (n, 3), counterclockwise as seen from outside, and the coefficients of its plane,
-    positive outside. At a position without a grid point of the polyhedron, the lowest is above the highest.
+    Each face is a pair: its vertices, shape (n, 3), counterclockwise as seen from outside, and the coefficients of its
+    plane, whose value is positive outside. At a position without a grid point of the polyhedron, the z returned as the
+    lowest is greater than the z returned as the highest.
     """
     low = np.ones(shape, dtype=np.int64)
     high = np.zeros(shape, dtype=np.int64)
@@ -130,8 +131,8 @@ def below_faces(faces: Iterable[tuple[Grid, Plane]], shape: tuple[int, int]) -> 
 def write_heights(grid: Grid, faces: Sequence[tuple[Grid, Plane]], rounded_up: bool) -> None:
     """Write the height of each face, rounded to integers, into ``grid`` at the positions (x, y) that it covers.
 
-    A face has its vertices, counterclockwise as seen from above, and the four coefficients of its plane, the third
-    positive. A later face overwrites an earlier one.
+    Each face is a pair: its vertices, counterclockwise as seen from above, and the four coefficients of its plane, of
+    which the third is positive. A later face overwrites an earlier one.
     """
     fans = [(corners[0], *pair, plane) for corners, plane in faces for pair in pairwise(corners[1:])]
     if not fans:

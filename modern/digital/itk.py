@@ -98,9 +98,10 @@ def read_itk(path: str, kind: str, series: str | None = None) -> Scan:
 
 
 def _checked(path: str, kind: str) -> tuple[Sequence[int] | None, NiftiHeader | None, str]:
-    """Check a file for damage. Return the sizes of its axes and its NIfTI header, or None, and a note, or "".
+    """Check a file for damage. Return its number of voxels along each axis, its NIfTI header, and a note.
 
-    Raise VolumeError if the file is damaged.
+    The numbers of voxels are None for a DICOM series, and the header is None for formats other than NIfTI. The note may
+    be "". Raise VolumeError if the file is damaged.
     """
     if kind == "NIfTI":
         header = check_nifti(path)

@@ -110,7 +110,7 @@ def _check(size: Sequence[int], numbers: int, most: int) -> None:
 def _nifti(reader: Any, notes: list[str]) -> str:
     """Return "mm" if a NIfTI file states a unit of length, because SimpleITK converts it to millimetres, otherwise "".
 
-    Add to ``notes`` if the file states no orientation.
+    Add a note to ``notes`` if the file states no orientation.
     """
     metadata = {key: reader.GetMetaData(key) for key in reader.GetMetaDataKeys()}
     if metadata.get("qform_code") == "0" and metadata.get("sform_code") == "0":

@@ -187,7 +187,7 @@ def _read_data_file(source: str, line: int, name: str) -> bytes:
 
 
 def _world(fields: Mapping[str, tuple[int, str]], dimension: int, source: str) -> tuple[World | None, tuple[str, ...]]:
-    """Return the position of the voxels, or None if the header states none that can be used, and notes for the user."""
+    """Return the position of the voxels, None if the header states no usable position, and notes for the user."""
     notes = [
         f"{source}: line {fields[name][0]}: {name} is ignored; space origin states the position"
         for name in _IGNORED

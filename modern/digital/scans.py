@@ -226,7 +226,7 @@ def _parts(values: NDArray[Any]) -> Iterator[NDArray[Any]]:
 
 
 def listed_labels(labels: Sequence[int]) -> str:
-    """Return labels as text, such as ``1, 2, 3, 7``. Of more than 12 labels, list the first four and the last."""
+    """Return labels as text, such as ``1, 2, 3, 7``. If there are over 12, list the first four and the last one."""
     if len(labels) <= 12:
         return ", ".join(map(str, labels))
     return f"{', '.join(map(str, labels[:4]))}, ... {labels[-1]} ({len(labels)} labels)"

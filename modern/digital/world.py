@@ -90,11 +90,12 @@ class World:
         return replace(self, steps=steps, origin=tuple(map(_product, signs, self.origin)), space=space)
 
     def spacings(self) -> tuple[tuple[str, bool], ...]:
-        """Return the length of each step as decimal text, and True if it is exact; other lengths have six digits."""
+        """Return the length of each step as text, and True if it is exact or False if it is rounded to six digits."""
         return tuple(_length(step) for step in self.steps)
 
     def bearings(self) -> tuple[tuple[str, bool], ...]:
-        """Return the anatomical direction of each axis of the array, such as ``left``, and True if it is exact.
+        """Return the direction assigned to each axis, such as ``left``, and True if the axis has exactly this
+        direction.
 
         The result is empty if the space is not anatomical.
         """

@@ -34,7 +34,8 @@ def draw_against(
 ) -> str:
     """Return the picture of a hull and of its differences from a hull read from cards, as the text of an SVG file.
 
-    ``eye``, ``title``, ``width`` and ``show`` are those of ``draw_svg``, except that all points are drawn.
+    ``eye``, ``title``, ``width`` and ``show`` are those of ``draw_svg``, but all points are drawn even if ``show``
+    omits them.
     """
     show = replace(show or Show(), points=True)
     picture = filter_scene(scene(hull, None if eye is None else [Fraction(number) for number in eye]), show)

@@ -87,7 +87,7 @@ def _near(a: Label, b: Label) -> bool:
 def _candidates(
     label: Label, lines: Sequence[Line], marks: Sequence[Place], middle: Place, size: Place
 ) -> list[tuple[Place, float]]:
-    """Return the candidate positions of a label's centre, each with its cost if there were no other labels."""
+    """Return the candidate positions of a label's centre, each with its cost without regard to other labels."""
     half = label.half
     reach = _GAPS[-1] + 2 * half[0] + HEIGHT
     around = (label.x - reach, label.y - reach, label.x + reach, label.y + reach)

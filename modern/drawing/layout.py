@@ -63,8 +63,8 @@ def lay_out(picture: Scene, width: int) -> Layout:
 def fit(images: Sequence[Flat], width: int, highest: int, margin: int = MARGIN) -> tuple[Callable[[Flat], Pixel], int]:
     """Return a function that converts positions to pixels, and the height of the picture.
 
-    The scale is the greatest at which all positions fit into a picture with these margins, of this ``width`` and,
-    without its margins, at most the height ``highest``.
+    The scale is the largest one at which all positions fit into a picture with a margin of ``margin`` pixels on each
+    side. The picture is ``width`` pixels wide with its margins, and at most ``highest`` pixels high without them.
     """
     x_min, x_max = _ends(image[0] for image in images)
     y_min, y_max = _ends(image[1] for image in images)

@@ -4,8 +4,8 @@ The scale is 96 pixels to the inch. A card is 7 3/8 by 3 1/4 inches. Holes are .
 inches apart, and rows .25 inches apart. The first column is .251 inches from the left edge and the first row .250
 inches from the top edge (ANSI X3.21-1967, rectangular holes in twelve-row punched cards).
 :data:`emulator.language.cards.PUNCHES` holds the codes of the characters: those of the 026 with code plate H (part
-362277 of the parts catalog of IBM's 24 and 26 card punches). The printed form is that of IBM's card 5081: each digit in
-its row, and the numbers of columns below.
+362277 of the parts catalog of IBM's 24 and 26 card punches). The printed form is that of IBM's card 5081: each digit is
+printed in its row, and the column numbers below the row of nines.
 """
 
 from collections.abc import Iterator

@@ -82,8 +82,8 @@ def _proposed(points: Coordinates, basis: Sequence[int], fast: bool | None) -> t
 def exact_hull(points: Points, fast: bool | None = None) -> ExactHull:
     """Return the exact convex hull of at least one point, with every point classified and the result proved.
 
-    :func:`hull1620.exact_hull` describes the parameters.  For many points in space a hull is first proposed in rounded
-    numbers.  If its proof fails, the hull is constructed exactly.
+    :func:`hull1620.exact_hull` describes the parameters.  For many points in space, a hull is first computed in
+    floating-point numbers, and then proved exactly.  If this proof fails, the hull is constructed in exact arithmetic.
 
     Raise PointsError for invalid points, NotInstalled if ``fast`` is true and numba is missing, and CertificateError if
     the proof of the constructed hull fails.

@@ -9,10 +9,10 @@
    and only if its class is boundary.
 3. Each vertex lies in enough facet planes to be their only common point: in space three with independent normals, in a
    plane two.  Therefore it does not lie between two other points.
-4. The facets close.  In space, every polygon turns left at every vertex, seen from outside, and goes around once;
-   every directed edge occurs once and so does its reverse; V - E + F = 2.  In a plane, the edges are those of the
-   polygon, which satisfies the same conditions.  On a line, the facets are the two ends, with planes at right angles to
-   the line.
+4. The facets form a closed surface.  In space, every polygon turns left at every vertex, seen from outside, and goes
+   around once; every directed edge occurs once and so does its reverse; V - E + F = 2.  In a plane, the edges are those
+   of the polygon, which satisfies the same conditions.  On a line, the facets are the two ends, with planes at right
+   angles to the line.
 
 Evaluating every plane at every point takes too long for many points and facets.  If there are at least MANY pairs of a
 plane and a point, the convexity of a polyhedron is proved from its edges, and each point is evaluated in the plane of

@@ -77,8 +77,9 @@ class Undecided(Exception):
 class Cones:
     """The polygons split into triangles, and for each triangle the cone from the inner point o through it.
 
-    ``corners`` (t, 3) are points. ``beyond`` (t, 3) is the neighbouring triangle at each edge. ``walls`` (t, 3, 3) is
-    the normal of the plane through o and each edge; it points to the side of the triangle.
+    For each of the t triangles, ``corners`` (t, 3) has the indices of its corners, ``facet`` (t) the facet that it
+    belongs to, and ``beyond`` (t, 3) the neighbouring triangle at each edge.  ``walls`` (t, 3, 3) has, for each edge of
+    each triangle, the normal of the plane through o and the edge, which points towards the inside of the cone.
     """
 
     corners: Ints
@@ -138,7 +139,7 @@ class _Proof:
         return self.images.exactly(self.o)
 
     def check_middle(self) -> float:
-        """Check condition c: the inner point is inside all planes.  Return the radius of a ball inside them."""
+        """Check that the inner point o is inside all planes (condition c).  Return its least distance from a plane."""
         bases = self.images.places[self.sides.corner[self.sides.first]]
         normals = self.planes.normals
         approximate = np.einsum("ij,ij->i", normals, self.o - bases)
@@ -201,7 +202,7 @@ class _Proof:
                 raise CertificateError(f"a ray from inside meets two facets: {pair}")
 
     def check_points(self, r: float) -> None:
-        """Check that every other point is inside the surface, or on it if its class is boundary (condition f)."""
+        """Check that each inside point is inside the surface, and each boundary point on it (condition f)."""
         hull = self.hull
         points = np.array(hull.boundary + hull.inside, np.int64)
         expected = np.repeat([0, -1], [len(hull.boundary), len(hull.inside)])

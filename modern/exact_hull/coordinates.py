@@ -41,8 +41,9 @@ class Images:
     """The points moved and scaled into a unit box and rounded to float64, for quick tests with proved error bounds.
 
     A point x has the image u with x = c + s u: ``places`` holds u, ``low`` holds c, and ``shifts`` the exponents of s.
-    On each axis, c is the least coordinate, and s a power of two greater than the difference from the largest one.  u
-    is from 0 to 1 and has an error of at most 2**-54, because only the difference x - c is rounded.
+    On each axis, c is the least coordinate, and s a power of two greater than the difference between the largest and
+    the least coordinate.  u is from 0 to 1 and has an error of at most 2**-54, because only the difference x - c is
+    rounded.
     """
 
     low: tuple[int, ...]
@@ -51,7 +52,7 @@ class Images:
 
     @property
     def are_small(self) -> bool:
-        """True if the scaled points and all values of planes are integers below 2**52, which float64 holds exactly."""
+        """True if the scaled points and all values of planes at points are integers below 2**52, exact in float64."""
         return sum(self.shifts) <= _SMALL_BITS
 
     def exactly(self, place: Floats) -> tuple[IntPoint, int]:
@@ -69,7 +70,8 @@ class Coordinates(LazyMembers[IntPoint]):
     """Points as integers divided by a common ``scale``.  An instance equals the tuple of its points as integers.
 
     ``numbers`` (n, 3) holds the integers as int64 or, if they do not fit, as Python integers.  If the input is floats
-    whose integers do not fit in int64, ``numbers`` holds the floats, and their integers are made on access.
+    whose scaled integers do not fit in int64, ``numbers`` holds the floats, and the integers are computed when they are
+    accessed.
     """
 
     def __init__(self, points: Sequence[IntPoint] | NDArray[Any], scale: int = 1) -> None:

@@ -180,7 +180,7 @@ def segment(points: Sequence[IntPoint]) -> list[Facet]:
 
 
 def positive(plane: Plane) -> Plane:
-    """Return a plane in lowest terms whose first nonzero number among A, B, C is positive."""
+    """Return the plane in lowest terms, with the sign that makes its first nonzero number among A, B, C positive."""
     a, b, c, d = lowest_terms(plane)
     return (a, b, c, d) if (a, b, c) > (0, 0, 0) else (-a, -b, -c, -d)
 

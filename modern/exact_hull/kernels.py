@@ -4,7 +4,7 @@ The algorithm is that of Barber, Dobkin and Huhdanpaa, ACM Transactions on Mathe
 point that is not yet in the hull waits in the linked list of a triangle that it sees (is outside of), and the farthest
 point of a list is inserted next.  When a triangle is removed, its points are compared with the new triangles.
 
-Signs are exact.  With h = 2**-53 a difference of doubles has a relative error of at most h.  A number of the vector
+Signs are exact.  With h = 2**-53 a difference of doubles has a relative error of at most h.  A component of the vector
 product u x v, such as u2 v3 - u3 v2, has an error of at most 4h q, where q = |u2 v3| + |u3 v2|.  Its product with the
 difference d from a corner, at most 1, has an error of at most 6h q, and the additions round by less than 3h times the
 sum of all q.  The total is below 9h times this sum, and underflow adds less than 2**-1000.  A value beyond BOUND = 16h
@@ -79,12 +79,12 @@ def surface(places: NDArray[np.float64], exact: bool) -> Surface:
 class Room(NamedTuple):
     """Temporary arrays for the insertion of a point.
 
-    They are allocated once, because numba compiles functions faster if they allocate nothing.
-    ``near`` is a triangle in whose plane each point lay when it was compared last, or -1.  ``visible`` and ``fresh``
-    are the visible and the new triangles of a step.  ``heads`` has the first point in the list of each visible
-    triangle. ``edges`` (n, 2) holds the horizon as (slot, edge), and ``outer`` (n, 3) as (start, end, triangle beyond).
-    ``todo`` is a stack of slots with waiting points, ``queued`` is True for each slot on the stack, and ``free`` holds
-    empty slots.
+    They are allocated once, because numba compiles functions faster if they allocate nothing.  ``near`` has, for each
+    point, a triangle in whose plane the point lay when it was last compared with triangles, or -1.  ``visible`` and
+    ``fresh`` are the visible and the new triangles of a step.  ``heads`` has the first point in the list of each
+    visible triangle. ``edges`` (n, 2) holds the horizon as (slot, edge), and ``outer`` (n, 3) as (start, end, triangle
+    beyond).  ``todo`` is a stack of slots with waiting points, ``queued`` is True for each slot on the stack, and
+    ``free`` holds empty slots.
     """
 
     near: NDArray[np.int64]
@@ -211,7 +211,7 @@ def value(known: Any, slot: int, p: int) -> float:
 
 
 def wait(known: Any, slot: int, p: int, height: float) -> None:
-    """Add a point to the list of a triangle that it is outside of; ``height`` is the plane's value there."""
+    """Add a point to the list of a triangle that it is outside of; ``height`` is the plane's value at the point."""
     known.following[p] = known.first[slot]
     known.first[slot] = p
     if height > known.height[slot]:
@@ -222,7 +222,8 @@ def wait(known: Any, slot: int, p: int, height: float) -> None:
 def distribute(known: Any, p: int, slots: Any, count: int) -> int:
     """Add a point to the list of the first triangle that it is outside of.
 
-    Otherwise return a triangle in whose plane it lies, or -1.
+    Return -1 after adding it.  If it is outside of none, return a triangle in whose plane it lies, or -1 if there is no
+    such triangle.
     """
     level = -1
     for k in range(count):
@@ -236,7 +237,7 @@ def distribute(known: Any, p: int, slots: Any, count: int) -> int:
 
 
 def region(known: Any, p: int, start: int, step: int, visible: Any, edges: Any) -> Any:
-    """Find the triangles that a point is outside of, and the edges around them.  Return the numbers of both."""
+    """Find the triangles that a point is outside of, and the edges around them.  Return how many there are of each."""
     mark, neighbours = known.mark, known.neighbours
     visible[0] = start
     mark[start] = 2 * step
@@ -260,7 +261,7 @@ def region(known: Any, p: int, start: int, step: int, visible: Any, edges: Any) 
 
 
 def grow(known: Any, work: Any, start: NDArray[np.int64]) -> int:
-    """Grow the hull from the points ``start``.  Return the slots used, or 0 if the surface does not close."""
+    """Grow the hull from the points ``start``.  Return the number of slots used, or 0 if the surface is not closed."""
     corners, neighbours = known.corners, known.neighbours
     points = len(known.places)
     near, visible, fresh, heads = work.near, work.visible, work.fresh, work.heads

@@ -8,12 +8,13 @@ w, where w is the power of two that makes the largest of them at most 1.  With e
 most e (the nearest float64 of the exact quotient; dividing by a power of two is exact).
 
 A difference d of images is below 1 in absolute value and has an error of at most 3e: e for each image and e for
-rounding.  The value of a plane, N . (x - p) with a corner p, has products with errors of 3e + e + e = 5e, together 15e.
-The additions, of sums below 2 and below 4, round by 2e and 4e.  The total is 21e.
+rounding.  The value of a plane is N . (x - p) with a corner p.  Each of its three products has an error of 3e + e + e =
+5e, and all three together 15e.  The additions, of sums below 2 and below 4, round by 2e and 4e.  The total is 21e.
 
-If many points are compared with many planes, the value is N . x + D with D = -N . p.  Products have errors of 3e, and
-three of them 9e.  D, below 3, has 9e, and its additions round by 2e and 2e.  The additions to N . x, in any order and
-with or without fused products, have partial sums below 8 and round by at most 8e each, together 24e.  The total is 46e.
+If many points are compared with many planes, the value is N . x + D with D = -N . p.  Each product has an error of 3e,
+and the three together 9e.  D is below 3 in absolute value.  Its three products too have errors of 9e together, and its
+two additions round by 2e each.  The additions to N . x, in any order and with or without fused products, have partial
+sums below 8 and round by at most 8e each, together 24e.  The total is 46e.
 
 Products of two errors and underflow add less than e.  All of this is below BOUND = 2**-47 = 128e.  A value beyond the
 bound has the true sign.  All others, and NaN, are computed in integers.
@@ -152,7 +153,7 @@ class Planes:
         return signs
 
     def outside(self, facets: Ints, indices: Ints) -> Ints:
-        """Return the numbers of those pairs of a facet and a point in which the point is not in the facet's plane.
+        """Return the positions, in the arguments, of the pairs of a facet and a point that is not in the facet's plane.
 
         The given pairs must include the base point of each facet.
         """
@@ -210,7 +211,7 @@ class Planes:
         self.evaluations += len(indices) * count
 
     def largest(self, indices: Ints) -> tuple[Ints, Ints]:
-        """Return, for each point, a facet whose plane has the greatest sign there, and this sign (1 for outside)."""
+        """Return, for each point, a facet whose plane has the greatest sign at the point, and this sign."""
         facets, largest = np.zeros(len(indices), np.int64), np.full(len(indices), -1)
         for rows, columns, signs in self.near(indices):
             np.maximum.at(largest, rows, signs)

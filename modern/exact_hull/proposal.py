@@ -45,8 +45,8 @@ _DENSE = 24
 class Proposal:
     """A hull that is not proved yet: triangles, shape (m, 3), counterclockwise seen from outside.
 
-    ``near`` lists other points that may lie on the surface, and ``at`` a triangle whose plane probably contains each of
-    them, or -1.
+    ``near`` lists points that are not corners but may lie on the surface.  For each of them, ``at`` has a triangle
+    whose plane probably contains the point, or -1.
     """
 
     triangles: Ints
@@ -79,7 +79,8 @@ def in_doubles(points: Coordinates) -> Floats | None:
 def propose(points: Coordinates, basis: Sequence[int], fast: bool | None = None) -> Proposal | None:
     """Return a hull that still has to be proved, or None if none was found.
 
-    basis: four points that do not lie in a plane. fast: use compiled code; None chooses.
+    basis: four points that do not lie in a plane. fast: True to use compiled code, False to use numpy, None to let the
+    program choose.
     """
     start = _simplex(points, basis)
     exact = points.images.are_small
@@ -143,11 +144,13 @@ def _exact_planes(points: Coordinates, corners: Ints) -> Planes:
 class _Growing:
     """The surface while it grows, as arrays of triangles, and the points that wait outside it.
 
-    A removed triangle keeps its index.
-    ``corners`` (T, 3) are counterclockwise seen from outside. ``neighbours`` (T, 3) are the triangles beyond the edges.
-    ``images`` (T, 4) are the planes with A, B and C at most 1, and ``bounds`` the bounds for errors of their values.
-    ``home`` is a triangle that each of the ``waiting`` points sees, and ``height`` the value of its plane there.
-    ``near`` are arrays of points that lay on the surface when they were compared last, and of triangles there.
+    A removed triangle keeps its index.  For each of the T triangles, ``corners`` (T, 3) has the corners,
+    counterclockwise seen from outside, ``neighbours`` (T, 3) the triangle beyond each edge, ``images`` (T, 4) the
+    plane, scaled so that A, B and C are at most 1 in absolute value, and ``bounds`` a bound for the error of this
+    plane's values.  ``waiting`` lists the points outside the surface.  For each of them, ``home`` has a triangle that
+    the point sees, and ``height`` the value of this triangle's plane at the point.  ``near`` is a list of arrays of two
+    rows: points that lay on the surface when they were last compared with triangles, and for each a triangle in whose
+    plane it lay.
     """
 
     def __init__(self, points: Coordinates, exact: bool, start: list[int]) -> None:
@@ -209,7 +212,8 @@ class _Growing:
     def _tried_against_all(self, points: Ints, first: int) -> tuple[Ints, Ints, Floats]:
         """Compare each point with all triangles from index ``first`` on.
 
-        Return the points that are outside of one of them, with the triangle of the largest value, and that value.
+        Return the points that are outside of at least one of them.  For each, return also the triangle whose plane has
+        the largest value at the point, and that value.
         """
         triangles = np.arange(first, self.made)
         chosen, largest = np.empty(len(points), np.int64), np.empty(len(points))
@@ -225,10 +229,11 @@ class _Growing:
         return self._outside(points, chosen, largest)
 
     def _tried_against_own(self, points: Ints, remover: Ints, starts: Ints, counts: Ints) -> tuple[Ints, Ints, Floats]:
-        """Compare each point only with the new triangles that replaced the triangle at which it waited.
+        """Compare each waiting point only with the new triangles of the inserted point that removed its triangle.
 
-        The inserted point ``remover`` of a waiting point made ``counts`` triangles from ``starts`` on. The result has
-        the form of that of ``_tried_against_all``.
+        For each of ``points``, ``remover`` has the rank of the inserted point that removed its triangle.  For each
+        rank, ``starts`` has the first triangle that the inserted point made, and ``counts`` the number of its
+        triangles.  The result has the same form as that of ``_tried_against_all``.
         """
         # Make one row for each pair of a point and a new triangle of the point that removed its triangle.
         pairs = counts[remover]
@@ -325,7 +330,7 @@ class _Growing:
         return rank, triangle, rank[row], triangle[row], edge
 
     def _reassign(self, owner: Ints, inserted: Ints, edge_rank: Ints, first: int) -> None:
-        """Assign the points of removed triangles to new triangles (those from index ``first`` on), or drop them."""
+        """Assign each point that waited at a removed triangle to a new one (from index ``first`` on), or drop it."""
         lost = ~self.alive[self.home]
         orphans, remover = self.waiting[lost], owner[self.home[lost]]
         done = np.zeros(len(self.places), np.bool_)

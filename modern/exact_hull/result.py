@@ -101,14 +101,14 @@ class ExactHull:
     """An exact convex hull.  All indices refer to the points of the input, from 0.
 
     dimension: 0 for a point, 1 for a segment, 2 for a polygon, 3 for a polyhedron.
-    scale: the least positive integer by which every coordinate becomes an integer.
+    scale: the least positive integer whose product with every coordinate is an integer.
     scaled: the coordinates times ``scale``, as integers that are made on access (``Coordinates``), or as a tuple.
     vertices, boundary, inside: each point belongs to exactly one of these, unless it is a duplicate, which its first
         occurrence represents.  ``boundary`` has the points on the relative boundary that are not vertices, ``inside``
         those in the relative interior (for a polygon within its plane).  All are sorted.
     duplicates: pairs of a point and the first point with the same coordinates, sorted.
     plane: for a polygon only, its plane without a common divisor, with the first nonzero number of A, B, C positive.
-    facets: the facets sorted by plane, as a tuple or as ``Facets``.  A point has none.
+    facets: the facets sorted by plane, as a tuple or as ``Facets``.  The hull of a single point has none.
     polygon: for a polygon only, its vertices from the smallest on, counterclockwise seen from the side to which
         (A, B, C) points.
     certificate: the counts of the proof.

@@ -36,7 +36,7 @@ def rows(text: str, source: str) -> Iterator[tuple[int, list[str]]]:
 
 
 def _normalised(line: str, separator: str) -> str:
-    """Return a line for the csv module: empty for a comment; if blanks separate the fields, with single blanks."""
+    """Return a line for the csv module: "" for a comment.  If blanks separate the fields, make them single blanks."""
     if line.lstrip().startswith("#"):
         return ""
     return line if separator else " ".join(line.split())

@@ -92,7 +92,7 @@ class UnfitPoint(ArgumentError):
     """Raised for a coordinate that no card can hold.
 
     ``point`` and ``field`` are the numbers of the point and of the coordinate, from 1, and ``why`` is the reason.
-    ``digits`` is True if the number only has too many digits.
+    ``digits`` is True if the only reason is that the number has too many digits.
     """
 
     def __init__(self, point: int, field: int, why: str, digits: bool) -> None:

@@ -33,7 +33,7 @@ def parse(text: str, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]:
 
 
 def surface(text: str, source: str) -> FileMesh:
-    """Return the vertices and faces.  Raise FileError for an invalid vertex, or a face of vertices not in the file."""
+    """Return the vertices and faces.  Raise FileError for an invalid vertex, or if a face names a missing vertex."""
     points, point_lines = parse(text, source)
     faces = []
     vertices_before = 0

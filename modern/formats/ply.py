@@ -72,7 +72,7 @@ Reader = Callable[[_Element, int], tuple[int, list[Any]]]
 def surface(data: bytes, source: str, with_faces: bool = True) -> FileMesh:
     """Return the exact vertices of a PLY file, and its faces unless ``with_faces`` is false.
 
-    In place of the line of a vertex, a binary file has the number of the vertex, from 1.
+    For a binary file, ``lines`` in the result has the number of each vertex, from 1, in place of its line.
     """
     end = data.find(_END, 0, _MOST_HEADER)
     if end < 0:

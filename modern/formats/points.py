@@ -76,8 +76,8 @@ def parse_input(text: str, source: str) -> Input:
 def parse_mesh(data: bytes, source: str) -> FileMesh:
     """Return the surface in a file, which may have no faces.  Raise FileError if it is not OFF, OBJ, PLY or STL.
 
-    The readers do not check that the faces close.  Equal corners of an STL file are one point; every vertex of OFF, OBJ
-    and PLY is a separate point.
+    The readers do not check that the faces form a closed surface.  Equal corners of an STL file are one point; every
+    vertex of OFF, OBJ and PLY is a separate point.
     """
     kind = surface_kind(data, source)
     if not kind:
@@ -100,15 +100,15 @@ def surface_kind(data: bytes, source: str) -> str:
 
 
 def kind_of(data: bytes, source: str) -> str:
-    """Recognise the format of a file of points, a key of ``POINTS``.  Raise FileError if it is none of these."""
+    """Return the format of a file of points, a key of ``POINTS``.  Raise FileError if it has none of these formats."""
     return _binary_kind(data) or recognise(decoded(data, source), source)
 
 
 def deck_or_points(data: bytes, source: str) -> str:
     """Return the format of a file of points, or "deck" if it is not clearly one of the other formats.
 
-    The reader of decks then reports the error in the file.  A text whose first line has several words is a list only if
-    they are three numbers, because the first card of a deck may hold e after N.
+    In the second case the reader of decks reads the file next and reports any error in it.  A text whose first line has
+    several words is a list only if they are three numbers, because the first card of a deck may hold e after N.
     """
     try:
         kind = kind_of(data, source)

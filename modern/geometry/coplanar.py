@@ -41,8 +41,9 @@ class Joined:
 
     ``groups`` has for each joined face the indices of the faces that it replaces.  The joined face has the plane of the
     first of them.  ``loops`` are the polygons of the joined faces, counterclockwise seen from outside.  ``left_out``
-    points belong to no polygon.  ``square`` is the square of the largest distance of a vertex from the plane of its
-    joined face.  ``beyond`` is the square of the smallest E that would join one more face, or None.
+    has the points that belong to no polygon, because they lie inside a joined face.  ``square`` is the square of the
+    largest distance of a vertex from the plane of its joined face.  ``beyond`` is the square of the smallest E that
+    would join one more face, or None.
     """
 
     within: Fraction

@@ -141,7 +141,7 @@ class Stage:
     checked: the number of the equation that the point was found outside of, called NETC in the listing; 0 for H_1.
     outside: the number of equations that the added point is outside of.
     struck: the points inside H_j, which the procedure eliminates.
-    equations: the defining points of each equation, in the order of the table.
+    equations: the defining points of each equation of H_j, in the order of the procedure's table of equations.
     """
 
     number: int
@@ -181,9 +181,9 @@ class Hull:
         of a segment.  The points between the ends belong to ``inside``.
     duplicates: pairs of a point and the first point with the same coordinates.  The thesis requires distinct points,
         so duplicates are reported and otherwise ignored.
-    plane: the plane of a polygon, as punched.
+    plane: the plane of a polygon, as program 1 punches it.
     lines: two equations for the line of a segment, or for each of the three sides of a triangle of three points.
-    centre: the inside point C, for a polyhedron.
+    centre: for a polyhedron the inside point C, the mean of the points of H_1.
     statement: the program and statement number in Butler's listing at which the status was decided.
     corrected: identifiers of the modern corrections that changed a branch of the listing.
     history: the approximations H_j, if the caller requested them.

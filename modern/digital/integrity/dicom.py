@@ -129,10 +129,10 @@ def has_signature(path: str) -> bool:
 
 
 def check_dicom(path: str) -> tuple[tuple[int, ...] | None, bytes]:
-    """Check a DICOM file. Return the numbers of its columns, rows and frames, and the identifier of its object's class.
+    """Check a DICOM file. Return the numbers of its columns, rows and frames, and its SOP class UID.
 
-    The numbers are None if the file has no pixel data. Raise VolumeError if an element is damaged or truncated, and
-    Unverifiable if the pixel data are compressed.
+    The SOP class UID identifies the kind of object, such as a CT image. The numbers are None if the file has no pixel
+    data. Raise VolumeError if an element is damaged or truncated, and Unverifiable if the pixel data are compressed.
     """
     with open(path, "rb") as file:
         elements = _Elements(file, path, os.fstat(file.fileno()).st_size)

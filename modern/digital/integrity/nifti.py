@@ -140,7 +140,8 @@ def _forms(
 def position_notes(header: NiftiHeader, world: World | None) -> list[str]:
     """Return notes for the user if the positions in the header disagree.
 
-    ``world`` is the position that SimpleITK returned. The notes name the position of the header that it agrees with.
+    ``world`` is the position that SimpleITK returned. The notes name the position in the header, ``qform`` or
+    ``sform``, that is nearest to ``world``.
     """
     if world is None or len(world.steps) != 3:
         return []

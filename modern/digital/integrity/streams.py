@@ -80,8 +80,8 @@ def check_compressed(source: str, file: BinaryIO, stored: int, expected: int) ->
 def read_gzip(source: str, stored: str | BinaryIO, most: int, keep: int) -> tuple[bytes, int]:
     """Return the first ``keep`` decompressed bytes of a gzip stream, and the number of all decompressed bytes.
 
-    The count stops at ``most`` + 1; up to ``most`` bytes, the checksum is verified. Raise VolumeError if the stream is
-    damaged.
+    Counting stops at ``most`` + 1 bytes. The checksum is verified only if the stream has at most ``most`` bytes. Raise
+    VolumeError if the stream is damaged.
     """
     try:
         with gzip.open(stored) as file:
