@@ -47,7 +47,10 @@ class CardError(EmulatorError):
 
 
 class LowerCaseError(CardError):
-    """Raised for a lower-case letter on a card.  ``capitals`` in emulator/language/statements.py converts a program."""
+    """Raised for a lower-case letter on a card.
+
+    ``capitals`` in emulator/language/statements.py converts a program to capitals.
+    """
 
 
 class DeckError(EmulatorError):

@@ -2,8 +2,9 @@
 
 The engine supports READ, PUNCH, PRINT and TYPE with any FORMAT, SQRT, integer powers, error codes, PAUSE and the
 normal endings.  If a run needs anything else, it ends with NOT_HERE, and the caller runs the deck again on a
-:class:`emulator.machine.machine.Machine`.  This concerns other functions, ACCEPT, a field without a number or with a
-remark, a record that is too long, a list that does not fit its FORMAT, and a deck that ends within a data set.
+:class:`emulator.machine.machine.Machine`.  This is necessary for library functions other than SQRT, for ACCEPT, for a
+field without a number or with one that needs a remark, for a record that is too long, for a list that does not fit its
+FORMAT, and for a deck that ends within a data set.
 
 The functions use only the part of Python that numba compiles.
 """
@@ -57,7 +58,7 @@ def run_decks(
 ) -> int:
     """Run the decks in order until the log is full, and return the number of decks that were completed.
 
-    The caller must run the remaining decks again with an empty log.
+    The caller must call the function again, with an empty log, for the remaining decks.
     """
     used = 0
     for d in range(len(cards.first) - 1):
@@ -123,7 +124,7 @@ def run_deck(
 ) -> int:
     """Run one deck and return the reason for the end of the run.
 
-    ``desk.devices`` must already hold FIRST_CARD, LAST_CARD and NEXT.
+    The entries FIRST_CARD, LAST_CARD and NEXT of ``desk.devices`` must already be set for the deck.
     """
     limit, strict, any_read = setting
     marks, devices, registers = code.marks, desk.devices, desk.registers

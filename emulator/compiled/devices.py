@@ -65,7 +65,7 @@ STAMP = 6
 # The tuples below group the arrays so that each function receives only the arrays that it needs: numba passes an array
 # as seven or more numbers in every call.
 class Marks(NamedTuple):
-    """The object code as devices use it: the second operand and statement of each instruction, and the verbs."""
+    """Parts of the object code, for the devices: the verbs, and second operand and statement of each instruction."""
 
     seconds: Row
     statements: Row
@@ -73,7 +73,7 @@ class Marks(NamedTuple):
 
 
 class Code(NamedTuple):
-    """The object code, the parts that devices use, and for each library function 1 if it is SQRT, otherwise 0."""
+    """The object code, its parts that devices use, and a number for each library function: 1 for SQRT, otherwise 0."""
 
     flat: Flat
     marks: Marks
@@ -81,7 +81,7 @@ class Code(NamedTuple):
 
 
 class Forms(NamedTuple):
-    """All FORMAT statements of a program, with FORM numbers each, their specifications, with PART each, and texts."""
+    """The FORMAT statements (FORM numbers for each), their specifications (PART numbers for each), and their texts."""
 
     formats: Row
     specs: Row
@@ -96,7 +96,7 @@ class Cards(NamedTuple):
 
 
 class Tools(NamedTuple):
-    """Buffers reused for every deck: texts of FORMATs, which a READ can change; device registers; record; field."""
+    """Buffers reused for every deck: FORMAT texts, which a READ can change; device registers; one record; one field."""
 
     texts: Row
     devices: Row
@@ -162,7 +162,7 @@ def begin(marks: Marks, forms: Forms, cards: Cards, desk: Desk) -> int:
 
 
 def to_field(marks: Marks, forms: Forms, cards: Cards, desk: Desk, repeat: bool) -> int:
-    """Advance to the FORMAT's next field for a number."""
+    """Advance to the next field for a number.  At the end of the FORMAT, start it again if ``repeat``, else stop."""
     devices = desk.devices
     while True:
         spec = devices[SPEC]
@@ -188,7 +188,7 @@ def to_field(marks: Marks, forms: Forms, cards: Cards, desk: Desk, repeat: bool)
 
 
 def text(place: int, width: int, cards: Cards, desk: Desk) -> int:
-    """Write the text of an H or X field.  On input, store the columns of the card as its text (C26-5619 p. 37)."""
+    """Write the text of an H or X field.  On input, store the card's columns as the field's text (C26-5619 p. 37)."""
     devices = desk.devices
     column = devices[COLUMN]
     devices[COLUMN] += width
@@ -211,8 +211,8 @@ def too_long(devices: Row) -> bool:
 def finish(marks: Marks, forms: Forms, cards: Cards, desk: Desk) -> int:
     """End an input or output statement: process the rest of its FORMAT and write the last record.
 
-    If the FORMAT has an unused field, the library of 1962 writes no empty record, and none for a statement without a
-    list.
+    If the FORMAT has an unused field, the library of 1962 writes no last record that is empty.  For a statement without
+    a list, it then writes no last record at all.
     """
     devices = desk.devices
     is_input = devices[VERB] == READ

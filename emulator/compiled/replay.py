@@ -40,7 +40,7 @@ def repeat(
     """Repeat the operations of a tape in a decimal arithmetic.
 
     ``mantissas`` and ``exponents`` already hold the input numbers of the tape and receive the results.  With random
-    rounding, operation k uses random number k + 1 of the seed.  numba compiles this function.
+    rounding, operation k, counted from 0, uses random number k + 1 of the seed.  numba compiles this function.
     """
     for k in range(len(operations)):
         operation = operations[k]
@@ -121,8 +121,8 @@ def _leaves(tape: Tape, digits: int) -> list[decimal.Decimal]:
 def exactly(tape: Tape, digits: int) -> list[Number]:
     """Return every number of a tape in exact arithmetic.
 
-    The numbers are Decimals, or Fractions if a quotient has no finite decimal expansion.  A division by zero gives the
-    largest number of the machine, which has ``digits`` digits.
+    All numbers are Decimals, or all are Fractions if a quotient has no finite decimal expansion.  A division by zero
+    gives the largest number of the machine, which has ``digits`` digits.
     """
     exact = decimal.Context(prec=_LONG, Emax=decimal.MAX_EMAX, Emin=decimal.MIN_EMIN, traps=[decimal.Inexact])
     values: list[Any] = list(_leaves(tape, digits))

@@ -76,7 +76,7 @@ def must_compile() -> bool:
 
 
 def compile_engine() -> None:
-    """Compile the engine, or load it from numba's cache.  Raise :class:`emulator.jit.functions.NotInstalled`.
+    """Compile the engine, or load it from numba's cache.  Raise NotInstalled if numba cannot be used.
 
     A study calls this function in a separate process, while its workers begin with the interpreter.
     """
@@ -133,7 +133,8 @@ class Run:
 class Runner:
     """The compiled engine with one program, for blocks of decks.
 
-    Raise DeckError if the program does not fit the machine, and :class:`emulator.jit.functions.NotInstalled`.
+    Raise DeckError if the program does not fit the machine, and :class:`emulator.jit.functions.NotInstalled` if numba
+    cannot be used.
     """
 
     def __init__(self, program: Program, options: Options) -> None:

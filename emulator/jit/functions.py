@@ -135,7 +135,7 @@ def called(entry: Function) -> list[Function]:
 
 @cache
 def _make_callable(helper: Function) -> None:
-    """Let compiled code call the function, which Python still runs uncompiled."""
+    """Let compiled code call the function.  A call from Python still runs it uncompiled."""
     from numba.extending import register_jitable
 
     register_jitable(helper)

@@ -1,4 +1,4 @@
-"""The compiler: it translates the syntax tree to object code: statement numbers, DO loops, input, output and storage.
+"""The compiler, which translates the syntax tree to object code: statement numbers, DO loops, input, output, storage.
 
 Sources: C26-5619 for the forms of statements and, on p. 56, for the error types.  A DO behaves as in IBM's object code,
 which we executed: the code at the end of the loop adds the step to the variable and compares the variable with the
@@ -72,9 +72,9 @@ class _OpenDo:
 class _Translation:
     """The state of one compilation.
 
-    ``jumps`` pairs the statement number to which each branch leads with the place of the branch.  ``opened`` counts the
-    open DO loops by the number of their last statement.  ``refused`` and ``foreign_names`` come from
-    :class:`~emulator.language.parser.Parsed`.
+    ``jumps`` has a pair for each branch: the statement number to which it leads, and its place.  ``opened`` has, for
+    each statement number, the count of open DO loops that end with this statement.  ``refused`` and ``foreign_names``
+    come from :class:`~emulator.language.parser.Parsed`.
     """
 
     source: str

@@ -71,7 +71,7 @@ class Emitter:
         self.modes.clear()
 
     def group(self) -> None:
-        """Give the next number to a finished product or parenthesized sum, whose value is now in the accumulator."""
+        """Number a finished product or parenthesized sum, whose value is in the accumulator, within its statement."""
         self.held, self.groups = self.groups, self.groups + 1
 
     def temporary(self) -> Operand:
@@ -117,7 +117,7 @@ class Emitter:
         return Operand(entry.first, self.subscripts.setdefault(description, len(self.subscripts)))
 
     def subscript(self, argument: Expression) -> tuple[int, int, int]:
-        """Return the parts of a subscript ``c*v+k``: the storage field of v (or -1), c and k.
+        """Return the parts of a subscript ``c*v+k``: the storage field of v (-1 if there is no v), c and k.
 
         Raise Refused if the subscript has another form.
         """

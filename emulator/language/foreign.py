@@ -18,7 +18,8 @@ class ForeignStatement:
 
     ``has_body`` is True if the cards after the statement, up to an END, belong to it.  ``declares`` is ``all`` if every
     name in the statement may be an array, a function or of another type, so that statements using the name cannot be
-    checked.  It is ``(`` if only names followed by a parenthesis may be.  ``number`` is IBM's error type, or 0.
+    checked.  It is ``(`` if this holds only for names followed by a parenthesis.  ``number`` is IBM's error type,
+    or 0.
     """
 
     name: str

@@ -45,8 +45,9 @@ Spec = Literal | Field | Slash
 class FormatSpec:
     """A FORMAT as a flat sequence of specifications, with repeat counts and groups expanded.
 
-    ``again`` is the index of the specification at which a list with more items than fields continues, as in IBM FORTRAN
-    II-D: the start of the last group that contains a field, before all its repetitions, or 0 without such a group.
+    A list that has more items than the FORMAT has fields continues at the specification with the index ``again``, as in
+    IBM FORTRAN II-D.  This is the start of the last group that contains a field, in its first repetition, or 0 if there
+    is no such group.
     """
 
     specs: tuple[Spec, ...]

@@ -109,8 +109,8 @@ def _literal(item: Literal) -> Iterator[list[int]]:
 def call(entry: int, address: int = 0) -> list[int]:
     """Return the twelve positions of an instruction that calls a library routine (BTM) or an input/output verb (BT).
 
-    A call transmits its operand to the position before the entry.  An operation on FAC alone is called by BT with this
-    position itself as the operand, so that nothing is transmitted.
+    A call transmits its operand to the position before the entry.  A routine that works on FAC alone has no operand.
+    It is called by BT with the position before the entry as the operand, so that nothing is transmitted.
     """
     if entry in ALONE.values():
         return [int(digit) for digit in f"27{entry:05}{entry - 1:05}"]

@@ -69,7 +69,7 @@ class Storage:
         return self.entries[bisect_right(self.entries, address, key=attrgetter("first")) - 1]
 
     def fields_of(self, text: str) -> range:
-        """Return the fields of a variable, array or element such as ``A(2,1)``, or none if the name is unknown."""
+        """Return the fields of a variable, array or element such as ``A(2,1)``: an empty range for an unknown name."""
         parts = re.fullmatch(r"([A-Z][A-Z0-9]*)(?:\((\d{1,4})(?:,(\d{1,4}))?\))?", text)
         named = (e for e in self.entries if parts and e.name == parts[1] and e.kind in ("variable", "array"))
         entry = next(named, None)
@@ -108,7 +108,7 @@ class Allocator:
     immediates: dict[str, int] = field(default_factory=dict)
 
     def immediate(self, text: str) -> int:
-        """Return a temporary address for the constant of a DO statement, which :meth:`final` later replaces."""
+        """Return an address for the constant of a DO statement, for use until :meth:`final` gives the final address."""
         return self.immediates.setdefault(text, _PROVISIONAL + len(self.immediates))
 
     def final(self, address: int) -> int:

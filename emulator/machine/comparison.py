@@ -1,4 +1,4 @@
-"""Compare the journals of two runs of one program: find differing values and decisions, and count lost digits.
+"""Compare the journals (decisions and stored values) of two runs of a program: find differences, count lost digits.
 
 emulator/machine/divergence.py states the rules and runs the programs.
 """
@@ -23,8 +23,8 @@ _DECISIONS = (op.IF, op.IFX, op.SELECT, op.DOTEST)
 class Difference:
     """A value that differs between the studied run and the reference run.
 
-    The statement ``line`` stored the value in its execution number ``time``, counted from 1.  ``names`` and ``values``
-    are the variable and its value in each run.  ``relative`` is the difference divided by the value in the reference
+    The statement ``line`` stored the value in its execution number ``time``, counted from 1.  For each run, ``names``
+    has the variable and ``values`` its value.  ``relative`` is the difference divided by the value in the reference
     run, or None if that value is zero or not a number.  ``bound`` is the largest possible error of the value in the
     reference run, 0 if nothing was rounded.
     """
@@ -41,8 +41,8 @@ class Difference:
 class Decision:
     """A decision (IF, computed GO TO or end of a DO) that has different outcomes in the two runs.
 
-    ``time`` is the number of the execution of the statement ``line``, counted from 1.  ``values`` and ``targets`` are
-    the tested value and the statement at which each run continues.
+    ``time`` is the number of the execution of the statement ``line``, counted from 1.  For each run, ``values``
+    has the tested value, and ``targets`` the statement at which the run continues.
     """
 
     line: Line
@@ -168,7 +168,7 @@ class Comparison:
         return f"at card {card} {name} has {text}, which its own rounding may have changed by {size}; {remedy}"
 
     def _lost(self, entry: Entry, reference_entry: Entry) -> tuple[float | None, float | None, bool]:
-        """Return the digits lost, the relative difference, and True if rounding in the reference run explains it.
+        """Return the digits lost, the relative difference, and True if the reference's rounding explains them.
 
         The digits and the relative difference are None if the values are equal or rounding explains their difference.
         """

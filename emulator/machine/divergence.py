@@ -263,7 +263,7 @@ def _printed(events: Sequence[Event]) -> list[str]:
 
 
 def _reached(entries: Iterator[Entry], junction: int) -> bool:
-    """Advance a run to the instruction ``junction``.  Return False if the run ends before it gets there."""
+    """Advance a run to the instruction ``junction``.  Return False if the run ends before this instruction."""
     return any(entry[0] == junction for entry in entries)
 
 

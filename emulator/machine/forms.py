@@ -181,8 +181,9 @@ class Output1962(Output):
         self._blank = self._after_error = False
 
     def end_before(self, width: int, exponent: str) -> str:
-        """End the record before an error code, leave the number's field blank, and return the columns before the code.
+        """End the record at a number that is in error, and return the columns that precede the error code.
 
+        A blank record is not ended.  The next record begins with blanks up to the end of the number's field.
         ``exponent`` is the text that the library has already stored at the end of a too narrow E field.  It remains in
         a punched record, but a typed line ends before it.
         """

@@ -139,7 +139,7 @@ class FromFile(Operator):
         return self._passed or next((part[0].number for part in (self._lines, *self._parts) if part), 0)
 
     def attend(self, session: Session) -> Iterator[Action]:
-        """Yield the actions of the file that are to be performed now: before the run, the settings at its beginning."""
+        """Yield the actions of the file that are due now.  Before the run, these are the settings at the file's top."""
         if session is not self._session:
             # The next machine: continue with the lines after the next LOAD.
             if self._session is not None and self._parts:
@@ -184,8 +184,9 @@ class FromFile(Operator):
 class Logged(Operator):
     """An operator whose actions are logged to a file, with the events of the machine as comments.
 
-    With the same program and deck, :class:`FromFile` repeats the run from the log and produces the same log.  Each LOAD
-    names the deck, by ``deck_name`` or else by the session's name for it, if the name is a single word.
+    With the same program and deck, :class:`FromFile` repeats the run from the log and produces the same log.  A LOAD
+    line names the deck as ``deck_name``, or without this argument as the session does.  A name of several words is left
+    out.
     """
 
     def __init__(self, operator: Operator, file: TextIO, deck_name: str | None = None) -> None:

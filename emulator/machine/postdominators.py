@@ -12,7 +12,7 @@ def post_dominators(follow: Sequence[Sequence[int]]) -> list[int]:
     """Return the post-dominators of each instruction, itself included, as a set of bits: 2**n for instruction n.
 
     ``follow`` holds the possible successors of each instruction; the number of instructions stands for the end.  The
-    last set is that of the end.  The set is 0 if no path from the instruction leads to the end.
+    last set in the list belongs to the end.  An instruction from which no path leads to the end has the set 0.
     """
     end = len(follow)
     sets = [0] * end + [1 << end]
@@ -30,7 +30,7 @@ def post_dominators(follow: Sequence[Sequence[int]]) -> list[int]:
 
 
 def meeting(sets: Sequence[int], first: int, second: int) -> int:
-    """Return the first instruction that lies on every path from both of two instructions, or -1 if there is none.
+    """Return the first instruction on every path from either of two instructions to the end, or -1 if there is none.
 
     ``sets`` are the post-dominators of all instructions.  The end does not count as an instruction.
     """

@@ -49,8 +49,9 @@ class Action:
     - START: continue.  With ``unasked`` it was pressed because nobody is at the console; a PAUSE then adds a notice.
     - STEP: execute ``number`` statements.
     - STOP: end the run and keep its results.
-    - ATTN: stop a running machine before its next statement; a second time, stop it at once, in the middle of a list.
-    - SWITCH: set sense switch ``number`` to ``on``.
+    - ATTN: stop a running machine before its next statement.  A second ATTN stops it at once, even within a list of an
+      input or output statement.
+    - SWITCH: turn sense switch ``number`` on if ``on`` is True, otherwise off.
     - BREAK, CLEAR: set or remove a breakpoint at statement ``number``, at the statements on a ``card``, or at the first
       statement after the variable or element ``name`` has changed.
     """
@@ -309,7 +310,7 @@ class Session:
             raise self._ended_by(reason)
 
     def _watch(self, line: Line) -> None:
-        """Report a statement that begins to the tracer, and halt after a step or at a breakpoint."""
+        """Tell the tracer which statement begins, and halt after a step or at a breakpoint."""
         self.last, self._begun = self._begun, line
         if self.tracer is not None:
             self.tracer(line, self)
@@ -332,7 +333,7 @@ class Session:
         return Ended(ended_by(reason, self.program, limit, at, decision, address, kind, state.index, costly))
 
     def _pay(self, operation: str, first: Number, second: Number = 0) -> None:
-        """Add the cost of a slow operation to the work of the run.  Raise Ended if it exceeds the limit by far."""
+        """Add the cost of a slow operation to the work of the run.  Raise Ended if the work is far above the limit."""
         state = self.state
         state.work += state.owe(self.options.numbers.work(operation, first, second))
         if state.work > self.options.limit + interpreter.SLACK:

@@ -60,8 +60,9 @@ class State:
 
     values, kinds: core storage.  counts: the executions of each counter.  fac, fixed: the accumulators.
 
-    pc: the next instruction.  at: the instruction that returned.  address, index: the field it concerns, and its
-    subscripts.  sent, sent_kind: a field being copied.  stored: the field last stored into.
+    pc: the next instruction.  at: the instruction at which the interpreter returned.  address, index: the field that
+    this instruction uses, and its subscripts.  sent, sent_kind: the value and kind of a field that is being copied.
+    stored: the field last stored into.
 
     element: the number of elements of an array that its ITEM has transferred; ITEM is then executed again.
     listed: True if an element has been transferred but not yet recorded in the journal.
@@ -118,7 +119,7 @@ def refuse_overlap(program: Program, core: int) -> None:
 
 
 def loaded(program: Program, numbers: Numbers) -> tuple[list[Number], list[int]]:
-    """Return the values and kinds of all storage fields before a run, when only constants have a value."""
+    """Return the values and kinds of all storage fields before a run.  Only constants have a value then."""
     values: list[Number] = [0] * program.storage.length
     kinds = [UNDEFINED] * program.storage.length
     for address, text in program.storage.constants + program.storage.immediates:

@@ -3,7 +3,7 @@
 The times were measured by running small programs with IBM's library of 1962 in a simulator that adds the published time
 of each instruction (A26-5706-3, X26-5743-2; ``python -m modern.bench.ibm1962 times``).  The object code and the library
 are those of a deck that IBM's own compiler punched.  :data:`MODEL` bounds the systematic error.
-Only the times of functions and general powers are estimates, because the deck lacks them.
+Only the times of functions and general powers are estimates, because they do not occur in the deck.
 
 The reader reads 250 cards a minute, the punch punches 125, and the typewriter types 10 characters a second (X26-5743-2
 p. 1 and 3).
@@ -100,7 +100,7 @@ class Time:
 
 
 def modelled(seconds: float, cause: str = "") -> Time:
-    """Return a time of the processor, with the systematic error of its cause."""
+    """Return a time of the processor, with the systematic error for its row of the time table, ``cause``."""
     low, high = CONVERSION_MODEL if cause == CONVERSION else MODEL
     return Time(seconds, low * seconds, high * seconds)
 
@@ -218,9 +218,9 @@ def shares(program: Program, result: Result) -> tuple[Time, ...]:
 
 
 def _records(program: Program, result: Result) -> dict[str, int]:
-    """Return the number of cards read (<), and that of cards and lines written (>).
+    """Return the number of cards read, as ``<``, and the number of cards and lines written, as ``>``.
 
-    An execution of a statement that types counts as one line.
+    Each execution of a statement that types counts as one line.
     """
     begins = [pair for pair in _executions(program, result) if pair[0].operation == op.BEGIN]
     typed = sum(times for begin, times in begins if program.verbs[begin.address] in ("TYPE", "PRINT"))

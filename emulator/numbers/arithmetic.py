@@ -326,7 +326,7 @@ FAMILIES = tuple(f"{family}:P" for family in _FAMILIES)
 
 
 def size_in(name: str, count: str, least: int, most: int, unit: str) -> int:
-    """Return the number of digits or bits, ``count``, in the name of an arithmetic.
+    """Convert ``count``, the number of digits or bits in the name of an arithmetic, to an integer.
 
     Raise ArgumentError, whose message names the ``unit``, if it is not an integer from ``least`` to ``most``.
     """
@@ -336,8 +336,8 @@ def size_in(name: str, count: str, least: int, most: int, unit: str) -> int:
 
 
 def profile(name: str) -> Profile:
-    """Return the decimal arithmetic with this name: one of PROFILES, or a family with P digits, such as
-    ``rounding:8``.
+    """Return the decimal arithmetic with this name: one of PROFILES, or a family and its number of
+    digits P, such as ``rounding:8``.
 
     ``guarded:P`` differs from ``truncating:P`` in sums only: the smaller operand keeps one more digit during the
     addition.  ``rounding:P`` gives the exact result of + - * / rounded half up in magnitude.  Raise ArgumentError for

@@ -127,7 +127,7 @@ class Numbers(ABC):
     def exact(self, value: Number, digits: int) -> Fraction | int | None:
         """Return the exact value of a number, or None if it is not finite.
 
-        Of an irrational value, at least ``digits`` digits are returned.
+        An irrational value is given to at least ``digits`` digits.
         """
 
     @abstractmethod

@@ -51,7 +51,7 @@ def draw(key: int, count: int) -> int:
 def randomly(size: int, unit: int, lost: int, rule: int, drawn: int) -> int:
     """Return ``size / unit``, rounded at random to one of the neighbouring integers.  ``size`` must not be negative.
 
-    ``lost`` is 1 if the exact value to be rounded is larger than ``size``, by less than ``unit / DRAWS``.
+    ``lost`` is 0 if ``size`` is the exact value.  It is 1 if the exact value is larger, by less than ``unit / DRAWS``.
     """
     whole = size // unit
     rest = size - whole * unit

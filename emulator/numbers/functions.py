@@ -103,7 +103,8 @@ def integer_power(mantissa: int, exponent: int, count: int, rules: Rules) -> Val
 def decimal_chain(mantissa: int, exponent: int, count: int, rules: Rules) -> State:
     """Return the same result as :func:`whole_power`, computed with Python's module :mod:`decimal`.
 
-    The module also forms all digits of a product before it rounds them, but is faster for many products.
+    Like :func:`whole_power`, the module forms all digits of a product before it rounds them.  It is faster for many
+    products.
     """
     m, e, event = whole_power(mantissa, exponent, -1 if count < 0 else 1, rules)
     if event:

@@ -1,10 +1,10 @@
 """Exact sums of square roots: ``c1*sqrt(n1) + c2*sqrt(n2) + ...`` with rational c and integer n.
 
-Two roots are of the same kind if the product of their radicands is a square, because sqrt(m) is then a rational
-multiple of sqrt(n).  A sum keeps one root of each kind.  Roots of different kinds are linearly independent over the
-rationals (A. Besicovitch, On the linear independence of fractional powers of integers, J. London Math. Soc. 15 (1940)
-3-6), so a sum is zero if and only if no term remains.  The sign of a sum that is not zero follows from integer bounds
-whose length is doubled until both have the same sign.
+Two roots sqrt(m) and sqrt(n) are of the same kind if m * n is a square; sqrt(m) is then a rational multiple of
+sqrt(n).  A sum keeps one root of each kind.  Roots of different kinds are linearly independent over the rationals (A.
+Besicovitch, On the linear independence of fractional powers of integers, J. London Math. Soc. 15 (1940) 3-6), so a sum
+is zero if and only if no term remains.  The sign of a sum that is not zero follows from integer bounds whose length is
+doubled until both have the same sign.
 """
 
 from __future__ import annotations

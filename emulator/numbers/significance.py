@@ -14,7 +14,7 @@ Let m be the mean of N values, s their standard deviation (with N - 1) and r = s
   Math. Softw. 47 (2021) 10, section 4).  The package ``significantdigits`` computes s with N instead of N - 1, so its
   result is larger by ``log10(N / (N - 1)) / 2``.
 
-Every estimate is at least 0 and at most the digits of the arithmetic.
+Every estimate is at least 0 and at most the number of digits of the arithmetic.
 """
 
 from __future__ import annotations

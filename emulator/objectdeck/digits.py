@@ -63,7 +63,10 @@ def immediate(value: int) -> str:
 
 
 def wide_immediate(value: int) -> str:
-    """Return an integer as :func:`immediate` does, with another flag over Q's first digit (DO limits, subscripts)."""
+    """Return an integer as :func:`immediate` does, with a second flag, over the first of the five digits of Q.
+
+    IBM's compiler punched the limit of a DO and the factor of a subscript in this form.
+    """
     return "]" + flagged(f"{value:04d}")
 
 

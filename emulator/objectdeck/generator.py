@@ -60,8 +60,9 @@ class _Generator:
     """The state of the translation of one program to machine code.
 
     ``places`` holds the position of each instruction of the emulator's object code.  ``formats`` is the number of
-    FORMATs translated so far.  IBM's compiler punched old digits from its buffer where an instruction has no operand:
-    ``operands`` holds those of the last call, and ``unused`` a digit of an earlier address.
+    FORMATs translated so far.  If an instruction does not use all of its twelve digits, IBM's compiler filled them with
+    old digits from its buffer: a PAUSE has the last ten digits of the last call (``operands``), and the instruction
+    that begins a DO may have one digit of an earlier address (``unused``).
     """
 
     program: Program
@@ -141,7 +142,7 @@ class _Generator:
         self._put(code)
 
     def _with_bound(self, immediate: str, direct: str, target: str, bound: int, wide: bool = False) -> str:
-        """Return an instruction that combines the field at ``target`` with a bound of a DO, a constant or a variable.
+        """Return an instruction that combines the field at ``target`` with a constant or variable bound of a DO.
 
         ``immediate`` and ``direct`` are its operation codes for a constant and for a variable.
         """
@@ -158,7 +159,7 @@ class _Generator:
         return step_forward + compare + d.BRANCH_NO_INDICATOR + address(self.places[body]) + _NOT_HIGH
 
     def _is_past_branch(self, pc: int) -> bool:
-        """Return True if control never reaches END: it has no number and follows a statement that always branches."""
+        """Return True if control never reaches END: END has no number and follows a statement that always branches."""
         before = pc - 1
         while before >= 0 and self.program.code[before].operation == op.COUNT:
             before -= 1
@@ -276,7 +277,7 @@ class _Generator:
 
 
 def _loops_closed_by_lists(program: Program) -> dict[int, tuple[int, ...]]:
-    """Return the loops of each list that end after its last item, by the index of the last item's instruction."""
+    """Return for each list the loops that end after its last item, keyed by the index of that item's instruction."""
     closing: dict[int, tuple[int, ...]] = {}
     for pc, instruction in enumerate(program.code):
         if instruction.operation != op.FINISH:

@@ -38,7 +38,7 @@ _SUM, _PRODUCT, _OPERAND = range(3)
 
 
 def layout(spec: FormatSpec, is_read: bool) -> tuple[str, int]:
-    """Return a FORMAT as one text, and the index in this text at which a longer list continues.
+    """Return a FORMAT as one text, and the index in this text at which a list longer than the FORMAT continues.
 
     The index is -1 if the FORMAT has no field for a number.  If a READ or ACCEPT uses the FORMAT, its X fields become H
     fields, because reading stores the skipped columns in them.

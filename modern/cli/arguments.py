@@ -25,7 +25,7 @@ def _reproduce(parser: ArgumentParser) -> None:
 
 
 def _run(parser: ArgumentParser) -> None:
-    shared.program_argument(parser, "run; without it, --operator=FILE names a log whose loads are repeated", "?")
+    shared.program_argument(parser, "run; without it, repeat the runs of the log that --operator=FILE names", "?")
     shared.deck_argument(parser, "a file of data cards, one card per line")
     shared.result_arguments(parser)
     shared.upcase_argument(parser)
@@ -93,9 +93,15 @@ def _listing(parser: ArgumentParser) -> None:
         "(default: %(default)s)"
     )
     add(parser, {"--against NAME": against}, default="exact")
-    digits = "add the least number of digits that the values of each statement have in common in ten stochastic runs"
+    digits = (
+        "for each statement, add the smallest number of digits that its values have in common in ten stochastic runs"
+    )
     add(parser, {"--digits": digits})
-    add(parser, {"--operator =FILE": "answer ACCEPT and PAUSE from FILE, or from a log of --log"}, type=InputFile)
+    add(
+        parser,
+        {"--operator =FILE": "answer ACCEPT and PAUSE from FILE, which may be a log that --log wrote"},
+        type=InputFile,
+    )
     add(parser, {"--commentary": "explain the blocks of statements and the variables of a program of the thesis"})
     shared.output_argument(parser)
     shared.compared_machine(parser)
@@ -162,7 +168,10 @@ def _apparatus(parser: ArgumentParser) -> None:
     add(parser, {"--sheets FOLDER": text}, type=Folder)
     text = "read filled sheets: write a changed copy of the edition to the folder of --state, and check it"
     add(parser, {"--sheet FILE": text}, type=InputFile, nargs="+")
-    text = "with --sheet: write the state to FOLDER, or add to it; otherwise use the edition in FOLDER"
+    text = (
+        "with --sheet: write the changed edition to FOLDER, or change the edition in FOLDER further; without --sheet: "
+        "use the edition in FOLDER"
+    )
     add(parser, {"--state FOLDER": text}, type=Folder)
     add(parser, {"--workers N": "with --weigh and --restore: use N processes (default: 1)"}, type=int, default=1)
     most = "with --weigh: try only the first N alterations (default: all); with --restore: make N rounds (default: 1)"

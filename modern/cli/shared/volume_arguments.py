@@ -56,8 +56,9 @@ def octree_hull(parser: ArgumentParser) -> None:
     _volume_arguments(parser)
     printed_arguments(parser, "statement", "angle, start, triangles, truncation, bound, corners, marks")
     tables = {
-        "--tables": "print the floor and the ceiling, the reduced sets, and every face (default: a summary)",
-        "--trace": "print the tables, and the result of processing every edge taken from the queue",
+        "--tables": "print the floor and the ceiling (the lowest and the highest voxel of each column), their reduced "
+        "sets (the voxels that can be vertices), and every face (default: a summary)",
+        "--trace": "print the tables of --tables, and for each edge taken from the queue the resulting face, or none",
     }
     add(parser, tables)
     result_file_argument(
@@ -72,7 +73,7 @@ _MESH_ENDINGS = tuple(f".{name}" for name in MESHES)
 
 
 def _volume_arguments(parser: ArgumentParser) -> None:
-    """Add the volume, the options that state what its file does not, and those that select voxels."""
+    """Add the volume, the options for properties that its file does not state, and the options that select voxels."""
     volume = (
         "NRRD, NPY, NPZ or a raw array; NIfTI (.nii, .nii.gz), MetaImage (.mha, .mhd), TIFF, DICOM (.dcm, or a "
         "folder with a series), read by SimpleITK (extra volumes); CSV voxels x,y,z; or ball:32, ball:32:vertex, "
