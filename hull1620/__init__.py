@@ -1,16 +1,16 @@
-"""Convex hulls in the arithmetic of 1963 and exactly, and the emulated IBM 1620, for Python programs.
+"""The Python interface: convex hulls, exact or in the arithmetic of 1963, and the emulated IBM 1620.
 
 ``import hull1620`` is fast, because each name is loaded on first use.
 
-- ``convex_hull`` computes the hull of points by Butler's procedure in any arithmetic, ``exact_hull`` with a proof.
-- ``Hull`` is their result, with numpy arrays, exact volume and area, drawings and files.
+- ``convex_hull`` computes the hull of points by Butler's procedure in any arithmetic; ``exact_hull`` proves its hull.
+- ``Hull`` is the result of both functions, with numpy arrays, exact volume and area, drawings and files.
 - ``digital_hull`` fills the hull of voxels; ``voxel_hull`` computes their exact hull in physical coordinates.
 - ``read_volume`` reads voxels from a file, such as NRRD, NPY, NIfTI or DICOM.
 - ``read_points`` reads points from a file of any supported format; ``data_deck`` writes points on cards.
 - ``read_deck`` reads cards from a file; ``compile_deck`` compiles a FORTRAN program.
 - ``load_program`` returns program 1, 2 or 3 of the thesis, compiled.
 - ``EmulatorError`` is the base class of the errors that invalid input raises.
-- ``Machine`` runs a program on the 1620 with ``Options``, among them the arithmetic, an object of ``numbers``.
+- ``Machine`` runs a program on the 1620.  Its ``Options`` include the arithmetic, which ``numbers`` returns by name.
 - ``run_hull`` applies the programs of 1963 to a data deck; ``read_hull`` reads the hull from the punched cards.
 - ``diverge`` finds the first values and decisions of a program that differ in two arithmetics.
 - ``Plan``, ``Cell`` and ``run_study`` compare thousands of computed hulls with the exact hull.
@@ -75,7 +75,7 @@ __all__ = sorted(name for names in _HOMES.values() for name in names)
 
 
 def _check_packages() -> None:
-    """Raise ImportError if Python would import another file instead of a package installed next to this one."""
+    """Raise ImportError if Python would import another package instead of one that belongs to hull1620."""
     folder = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
     for name in ("emulator", "modern", "fortran_src", "transcripts"):
         spec = find_spec(name)

@@ -54,7 +54,7 @@ class Hull:
 
     Points are identified by their index in the input, from 0.  Arrays hold the nearest doubles and are read-only.
     ``simplices``, ``equations``, ``neighbors``, ``volume``, ``area`` and ``squared_areas`` raise ExportError if the
-    procedure found no hull; the last three also if the faces do not close because numbers were rounded.
+    procedure found no hull; the last three also if the faces form no closed surface because numbers were rounded.
 
     Attributes
     ----------
@@ -79,7 +79,7 @@ class Hull:
 
     @property
     def determined(self) -> bool:
-        """True if a hull was found.  Butler's procedure fails for some points; ``exact_hull`` always finds one."""
+        """True if a hull was found.  Butler's procedure fails for some points; ``exact_hull`` always finds a hull."""
         return self.record.determined
 
     @property
@@ -107,7 +107,7 @@ class Hull:
 
     @property
     def duplicates(self) -> tuple[tuple[int, int], ...]:
-        """Pairs of indices: a point, and the first point with the same coordinates."""
+        """Pairs of indices: that of a repeated point, and that of the first point with the same coordinates."""
         return self.record.duplicates
 
     @property
@@ -205,7 +205,7 @@ class Hull:
 
     @cached_property
     def squared_areas(self) -> tuple[Fraction, ...]:
-        """The exact square of the area of each face, in the order of ``faces``.  A polygon has one number."""
+        """The exact square of the area of each face, in the order of ``faces``; one number for a polygon."""
         return self._closed.squared_areas()
 
     def coplanar(self, within: Any) -> "Hull":

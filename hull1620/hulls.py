@@ -167,7 +167,7 @@ def read_points(path: Path) -> Sequence[tuple[str, str, str]]:
     -------
     sequence of (x, y, z)
         Each coordinate is the decimal text of the file, or the exact decimal of a binary float.  The numbers of an NPY
-        file become texts only when they are read; ``exact_hull`` uses the array instead.
+        file become texts only when they are accessed; ``exact_hull`` uses the array instead.
 
     Raises
     ------

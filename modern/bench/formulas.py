@@ -26,7 +26,7 @@ def _points(*names: str) -> tuple[str, ...]:
 
 
 def _of_points(function: Callable[..., Number]) -> Callable[..., Number]:
-    """Turn a function of points into a function of numbers, in which each three numbers are a point's coordinates."""
+    """Turn a function of points into a function of their coordinates, three numbers for each point."""
     return lambda *numbers: function(*(numbers[k : k + 3] for k in range(0, len(numbers), 3)))
 
 
@@ -50,7 +50,7 @@ def _normal(k: int) -> Callable[..., Number]:
 
 
 def _line_formulas(number: str, u: str, v: str) -> list[Formula]:
-    """Return the formulas for A, B and C of a line through two points, in the coordinates called ``u`` and ``v``."""
+    """Return the formulas for the coefficients of the line Au + Bv + C = 0 through two points, in two coordinates."""
     names = (f"{u}1", f"{v}1", f"{u}2", f"{v}2")
 
     def coefficient(k: int) -> Any:

@@ -55,7 +55,7 @@ Say = Callable[[str], None]
 class Row:
     """The measured times of an engine, and the number of decks in each run.
 
-    In the table of results this is one line.
+    A row is one line in the table of results.
     """
 
     figure: Figure
@@ -71,8 +71,8 @@ class Row:
 class Bench:
     """The results of a measurement.
 
-    ``rows`` are the times of the engines, ``starts`` those of process starts, and ``compiler`` is the version of the
-    Fortran compiler, or empty if there is none.
+    ``rows`` has the times of the engines, and ``starts`` the times of whole processes that run one deck.  ``compiler``
+    is the version of the Fortran compiler, or empty if there is none.
     """
 
     rows: tuple[Row, ...]

@@ -161,7 +161,7 @@ def _report(
 
 
 def _summary(source: Input, inputs: Sequence[Surface], hull: Assembled, joined: Joined | None) -> Iterator[str]:
-    """Yield the short report for many points: one line for each table."""
+    """Yield the short report for many points, in which one line stands for each table."""
     yield _first_line(source, inputs)
     if hull.preprocessing is not None:
         deleted_first = counted(len(hull.preprocessing.deleted), "point")
@@ -222,7 +222,7 @@ def _preprocessing(preprocessing: Preprocessing) -> Iterator[str]:
 
 
 def _growth(loop: Loop, width: int) -> Iterator[str]:
-    """Yield the first lines of a loop, and a table of the use counts of all edges after the loop."""
+    """Yield a line with the type and the points SP and MP of a loop, and a table of each edge's uses after the loop."""
     yield f"  type {loop.kind}, SP {loop.start + 1}, MP {loop.match + 1}"
     cell = len(str(len(loop.uses))) + 1
     columns = max(1, (width - len("  IUC(L)")) // cell)

@@ -116,7 +116,7 @@ def _run(program: Program, deck: Deck, options: Options, reference: Numbers) -> 
 
 
 def _truth(reference: Numbers, divergence: Divergence) -> Numbers:
-    """Return the arithmetic of the true digits: the reference, or 200 bits if the reference could not decide a test."""
+    """Return the reference arithmetic, or binary arithmetic of 200 bits if the reference could not decide a test."""
     ending = divergence.endings[1]
     return numbers("mp:200") if ending is not None and ending.kind == "undecided" else reference
 
@@ -236,7 +236,7 @@ def _decisions(
 
 
 def _statements(divergence: Divergence, sampling: Sampling) -> Table:
-    """Return a table of the statements with the digits that they lost, and the digits that stochastic runs estimate."""
+    """Return a table of statements with the digits that their values lost and, by stochastic runs, still have."""
     losses = {loss.line.index: loss for loss in divergence.losses}
     rows = []
     for row in sorted(sampling.statements, key=lambda row: (row.worst, row.line.place.card)):

@@ -88,7 +88,7 @@ def _change(change: Change) -> str:
 
 
 def _data(name: str) -> Deck:
-    """Return a data deck: a file, an example, or a deck by name such as ``example4/punched``.  Raise EmulatorError."""
+    """Return the deck of a file, of an example, or of a name such as ``example4/punched``.  Raise EmulatorError."""
     from modern.publication.decks import named_deck
 
     try:

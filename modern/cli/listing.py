@@ -59,7 +59,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _answers(name: str | None) -> tuple[str, str] | None:
-    """Return the name and the text of the file that ``--operator`` names, or None. Raise UsageError for a terminal."""
+    """Return name and text of the file of ``--operator``, or None for no operator. Raise UsageError for a terminal."""
     if name == "":
         raise UsageError(
             "--operator: the listing command cannot ask at the terminal; use --operator=FILE with a file or a log"

@@ -57,7 +57,7 @@ def _in_space(volume: Volume) -> Volume:
 
 
 def _printed(args: argparse.Namespace) -> Printed:
-    """Return which statements of the paper the options apply as printed. Raise UsageError."""
+    """Return the statements of the paper that the options select to be applied as printed. Raise UsageError."""
     if args.literal:
         return LITERAL
     try:
@@ -110,7 +110,7 @@ def _table(name: str, heights: dict[Place, int]) -> Iterator[str]:
 
 
 def _side(name: str, envelope: Envelope, columns: int, origin: Point, sign: int, trace: bool) -> Iterator[str]:
-    """Yield the report on an envelope: the lower one (``sign`` 1), or the upper one, whose heights are negated (-1)."""
+    """Yield the report on the lower envelope (``sign`` 1) or on the upper one (-1), which has negated heights."""
 
     def at(point: Point) -> Point:
         return point[0] + origin[0], point[1] + origin[1], sign * point[2] + origin[2]
@@ -147,7 +147,7 @@ def _trace(number: int, step: Step, at: Callable[[Point], Point], sign: int) -> 
 
 
 def _normal(normal: Point, sign: int) -> str:
-    """Return a normal divided by the greatest common divisor of its components, and reflected for the ceiling."""
+    """Return a normal divided by the greatest common divisor of its components, with z multiplied by ``sign``."""
     a, b, c = (number // math.gcd(*normal) for number in normal)
     return _tuple((a, b, sign * c))
 

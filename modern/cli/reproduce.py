@@ -96,7 +96,7 @@ def main(args: argparse.Namespace) -> int:
 
 @contextmanager
 def _skipping(left_out: list[str], is_requested: bool, name: str) -> Iterator[None]:
-    """Append ``name`` to ``left_out`` if the block needs numpy, numpy is not installed, and no result is requested."""
+    """Append ``name`` to ``left_out`` if the ``with`` block lacks numpy, unless the user has named the result."""
     try:
         yield
     except ModuleNotFoundError as error:
@@ -161,13 +161,13 @@ def _example_lines(
 
 
 def _same(verdict: Verdict) -> str:
-    """Return text that counts the parts of a result that agree in another order; empty for other verdicts."""
+    """Return text with the numbers of points and planes that agree in another order; empty for other verdicts."""
     counted = ", ".join(f"{count} {_PARTS[part]}" for part, count in verdict.same)
     return f"the same {counted}" if counted else ""
 
 
 def _ending(report: Report) -> str:
-    """Return the message if the program did not end normally, otherwise an empty string."""
+    """Return a message about how the program ended, or an empty string if it ended normally."""
     if report.ending is None:
         return "the program was not reached"
     return report.ending.message if isinstance(report.ending, Ending) else str(report.ending)

@@ -1,6 +1,6 @@
-"""Functions of single cards for the restorer: the form of a card, its first error, and its possible corrections.
+"""Functions that the restorer applies to single cards: the form of a card, its first error, possible corrections.
 
-The cards have no blanks, except comments and FORMATs.
+The functions receive cards without blanks, except comments and FORMATs.
 """
 
 import re
@@ -24,7 +24,7 @@ _NAME = re.compile(r"[A-Z][A-Z0-9]*")
 
 
 def is_prose(card: str) -> bool:
-    """Return True if a card is a comment without its C: three words or one long word, but no sign of a statement."""
+    """Return True if a card has three words or one long word and cannot be a statement: a comment that lost its C."""
     if "=" in card or "(" in card or _KEYWORD.match(card):
         return False
     return len(_WORD.findall(card)) >= 3 or re.fullmatch(r" *[A-Z-]{15,}", card) is not None
@@ -62,15 +62,15 @@ def fault(card: str) -> int | None:
 
 
 def progress(card: str) -> int:
-    """Return a score of a card.
+    """Return a score of a card with an error; it is higher if the error is farther to the right.
 
-    The score is the column of the first error, minus 100 for each character that no statement has.
+    The score is the column of the first error, minus 100 for each character that cannot occur in a statement.
     """
     return (fault(card) or 0) - 100 * len(_BAD.findall(card))
 
 
 def exchanges(card: str) -> Iterator[tuple[str, Pair]]:
-    """Yield each text that results from replacing one misread place on a card by a lemma of the table of confusables.
+    """Yield each text that a card may have had before one misreading listed in the table of confusables.
 
     Each text is yielded with the pair of misread and correct characters.  If the card has characters that no statement
     can have, only replacements of the first of them are tried.
@@ -90,7 +90,7 @@ def exchanges(card: str) -> Iterator[tuple[str, Pair]]:
 
 @lru_cache(1 << 16)
 def labels(card: str) -> tuple[str, tuple[str, ...]]:
-    """Return the number of a statement and the numbers of other statements in it.
+    """Return the statement number of a card, and the numbers of other statements that its statement names.
 
     The number of a FORMAT begins with F, so that it differs from the same number of another statement.
     """
@@ -114,7 +114,7 @@ def names(card: str) -> frozenset[str]:
 
 @lru_cache(1 << 18)
 def form(card: str) -> str:
-    """Return a statement without its number, with its names numbered in the order of their first occurrence.
+    """Return a statement without its number, with each name replaced by the rank of its first occurrence.
 
     ``X(K)=Y(K)`` becomes ``<0>(<1>)=<2>(<1>)``.
     """

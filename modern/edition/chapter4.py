@@ -37,7 +37,7 @@ class Plane:
     """The plane Ax + By + Cz + D = 0 of a worked example.
 
     ``coefficients`` are A, B, C and D, and ``vertices`` the points that the plane contains according to the thesis.
-    ``printed`` is its equation in the line ``line``.
+    ``printed`` is its equation as printed, and ``line`` the id of the printed line.
     """
 
     number: int

@@ -147,7 +147,7 @@ def write_files(chapter: Chapter, folder: Path) -> tuple[str, ...]:
 
 
 class _Reader:
-    """A reader that takes the contents of fields, one after another, from printed lines.  Blanks have no meaning."""
+    """A reader that takes the contents of fields, one after another, from printed lines.  It ignores blanks."""
 
     def __init__(self, name: str, lines: Sequence[Line]) -> None:
         self._name = name

@@ -4,11 +4,11 @@
 :mod:`modern.edition.tokens` divides the card into tokens and finds their rivals, which are other possible readings.
 Each token gets one of four verdicts:
 
-``confirms``          the transcription has the token of the edition, and these characters are no misread rival
-``supports a rival``  the transcription has a rival, and these characters are no misreading of the edition's token
-``contradicts``       the transcription has another token of the same kind, which is no misreading of the edition's
-``unreadable``        the transcription lacks the place, has characters that cannot stand there, or has characters that
-                      may be a misreading of the token or of a rival
+``confirms``          the transcription has the token of the edition, which cannot be a misreading of a rival
+``supports a rival``  the transcription has a rival, which cannot be a misreading of the edition's token
+``contradicts``       the transcription has another token of the same kind, which cannot be a misreading of the token
+``unreadable``        the transcription lacks the passage, has no token of the same kind, or has characters that may be
+                      a misreading of the token or of a rival
 
 Characters may be a misreading of a text if the pairs of the table of confusables turn the text into these characters.
 A pair is not used if the transcription has the original character of the pair in at least :data:`ENOUGH` places and
@@ -69,7 +69,7 @@ class CollatedCard:
 class Collation:
     """The collation of a transcription: its id and file, the hash and number of lines of its text, and its cards.
 
-    ``cards`` has every card of the edition in order, also those that the transcription lacks.
+    ``cards`` has every card of the edition in order, including cards that the transcription lacks.
     """
 
     id: str
@@ -95,9 +95,9 @@ def collate(text: str, file: str = "") -> Collation:
 def _pieces(n: int, line: str) -> tuple[str, ...]:
     """Return the characters of a line that align with each token of a card.
 
-    A character that stands between two tokens and aligns with neither belongs to the first token, or to the second
-    token if it is a letter or digit and only the second token has one there.  A mark that the OCR may have inserted is
-    omitted.
+    A character between two tokens that aligns with neither belongs to the first token.  It belongs to the second token
+    if it is a letter or digit, the second token begins with one, and the first does not end with one.  Characters that
+    the OCR may have inserted as noise, such as specks, are omitted.
     """
     tokens, marks = spans(n), _marks()
     owner = [k for k, (a, b) in enumerate(tokens) for _ in range(a, b)]
@@ -197,8 +197,8 @@ def _kind(token: str) -> str:
 def to_json(collation: Collation) -> str:
     """Return a collation as JSON, with one card on each line.
 
-    A card has the letter of the verdict on each token, and the transcription's text of the tokens that it does not
-    confirm.
+    A card has a letter for the verdict on each token and, for the tokens that are not confirmed, the characters of the
+    transcription.
     """
     head = {"format": FORMAT, "id": collation.id, "file": collation.file, "sha256": collation.sha256}
     head |= {"lines": str(collation.lines), "edition": _edition()}
@@ -301,7 +301,7 @@ def _ranges(numbers: Sequence[int]) -> str:
 
 
 def shared_errors(collation: Collation) -> tuple[int, int]:
-    """Return how many misreadings of the OCR text are in a transcription too, and how many could be.
+    """Return how many misreadings of the OCR text a transcription shares, and how many of their places it contains.
 
     A transcription that shares most of the misreadings was probably made from the same OCR text or scan and is not
     independent.
@@ -315,7 +315,7 @@ def shared_errors(collation: Collation) -> tuple[int, int]:
 
 
 def _of_row(collation: Collation, row: Row) -> Iterator[tuple[Verdict, bool]]:
-    """Yield, for each place that a row changes, the verdict, and True if the transcription has the OCR reading."""
+    """Yield for each place that a row changes the verdict, and True if the transcription has the reading of the OCR."""
     for n, rival in row_rivals(row):
         card = collation.cards[n]
         if card.lines:

@@ -30,7 +30,7 @@ def rates() -> Rates:
 
 @cache
 def with_lost_signs(share: float) -> Rates:
-    """Return the rates of the listings, but with the rate ``share`` for each loss of a sign or of a point."""
+    """Return the rates of the listings, with the rate ``share`` for the loss of each sign and each decimal point."""
     return {**rates(), **{pair: share for pair in table() if pair.cls == "sign" and not pair.witness}}
 
 
@@ -46,7 +46,7 @@ def uniform(share: float, text: str) -> Rates:
 def damaged(
     text: str, chances: Rates, random: Random, allowed: Callable[[str, int], bool] = lambda text, at: True
 ) -> list[str]:
-    """Damage a text, and return for each of its characters the text that replaces it, with the marks inserted after it.
+    """Damage a text, and return for each of its characters the damaged text: its replacement and inserted noise.
 
     If several characters are replaced together, the replacement is at the index of the first.  ``allowed(text, index)``
     returns True if the character at an index may change.
@@ -69,7 +69,7 @@ def damaged(
 
 
 def _drawn(pairs: Sequence[Pair], chances: Rates, random: Random) -> Pair | None:
-    """Return one of the pairs, each with the probability that is its rate, or None."""
+    """Draw at most one of the pairs, each with its rate as its probability.  Return None if none is drawn."""
     number = random.random()
     for pair in pairs:
         number -= chances[pair]

@@ -1,4 +1,4 @@
-"""Find the smallest edits that turn a reading of the witness into the lemma: of words, of blanks, and of moved words.
+"""Find the smallest edits of words and blanks, and the moves of words, that turn a witness reading into the lemma.
 
 :mod:`modern.edition.segments` turns each edit into a place of the text.  All indices refer to the old text.
 """
@@ -94,7 +94,7 @@ def moving_edits(changes: Sequence[Change]) -> list[list[Edit]]:
 def _longest_run(
     removed: Sequence[tuple[int, int]], tokens: Sequence[Sequence[re.Match[str]]], added: Sequence[str]
 ) -> tuple[int, int]:
-    """Return the index and the length of the longest run of neighbouring removed words with which ``added`` begins."""
+    """Return index and length of the longest run of neighbouring words in ``removed`` with which ``added`` begins."""
     best = (0, 0)
     for origin, (number, word) in enumerate(removed):
         length = 0

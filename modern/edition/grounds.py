@@ -15,7 +15,7 @@ If a row consists of several steps (:mod:`modern.edition.readings`), each step i
 fail then too.
 
 To judge a row of an optional layer, its layer and the layers that its ground names are added to all three programs.
-The result with all rows of the layer is compared with the result without this row.
+The result with all rows of its layer is compared with the result without the row.
 """
 
 import re
@@ -302,7 +302,7 @@ def _reason(ending: Ending | EmulatorError) -> tuple[object, ...]:
 
 @cache
 def _with_row(name: str, layers: tuple[str, ...], deck_name: str) -> _Outcome:
-    """Return the outcome of a data deck with all rows applied.  Many rows use the same deck."""
+    """Return the outcome of a data deck with all rows applied; it is cached, because many rows use the same deck."""
     data = ground_deck(deck_name)
     assert data is not None
     return _outcome(name, layers, programs.with_layers(name, layers), data)

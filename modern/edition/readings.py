@@ -2,8 +2,8 @@
 
 The lemma of a row is made from the witness by *steps*.  Each step replaces characters of the OCR text by the correct
 characters, for example ``l`` by ``1``.  The pairs of characters that may be replaced are listed in
-``fortran_src/apparatus/confusables.toml``.  :func:`steps` finds the steps of a row.  The kinds of rows, and what a row
-of each kind may do:
+``fortran_src/apparatus/confusables.toml``.  :func:`steps` finds the steps of a row.  The kinds of rows, and the changes
+that a row of each kind may make:
 
 ``displaced``   puts the words of the witness into another order
 ``fused``, ``spacing``, ``columns``  change only blanks and line ends
@@ -107,10 +107,10 @@ def explains(witness: str, lemma: str, pairs: tuple[Pair, ...]) -> bool:
 
 
 def _way(witness: str, lemma: str, pairs: tuple[Pair, ...]) -> list[tuple[int, int, Pair]] | None:
-    """Return the fewest pairs of characters that turn the witness into the lemma, each with its indices in both.
+    """Return the fewest pairs that turn the witness into the lemma, each with its indices in both texts.
 
-    This is the dynamic programme of an edit distance.  A cell has an index in the witness and an index in the lemma.
-    It stores the cell from which it was reached, so that the pairs can be traced back from the end.
+    The algorithm is the dynamic programme of an edit distance.  A cell has an index in the witness and an index in the
+    lemma.  A cell stores the cell from which it was reached, so that the pairs can be traced back from the end.
     """
     best: dict[tuple[int, int], tuple[int, tuple[int, int] | None, Pair | None]] = {(0, 0): (0, None, None)}
     for i in range(len(witness) + 1):

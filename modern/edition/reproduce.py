@@ -45,8 +45,8 @@ class Verdict:
     ``numbers``, ``words``, ``cards`` and ``blank`` count the printed numbers, words, cards with text and blank cards.
 
     ``differences`` has a triple for each card that differs: its number, the printed and the produced card.  A missing
-    card is an empty string.  If the verdict is that the output is exact in another order, ``same`` has the number of
-    elements of each part; otherwise it is empty.
+    card is an empty string.  If the output is exact except for its order, ``same`` has the numbers of points, equations
+    and other parts that agree; otherwise it is empty.
     """
 
     kind: Kind
@@ -59,7 +59,7 @@ class Verdict:
 
     @property
     def holds(self) -> bool:
-        """True if the output agrees with the print, also if its order is another one."""
+        """True if the output agrees with the print, possibly in another order."""
         return self.kind != DIFFERENT
 
 
@@ -102,7 +102,7 @@ def reproduce(
 
 
 def summary(reports: Iterable[Report]) -> tuple[bool, int, int, int]:
-    """Return whether all results are reproduced, and the numbers of exact results, of reordered ones, and of others.
+    """Return True if all results are reproduced, and the numbers of exact, of reordered and of other results.
 
     With the state of the examples, a result is reproduced if it is exact.  With the listing, its order may differ.
     """

@@ -21,8 +21,8 @@ from modern.edition.readings import solid
 class Place:
     """A piece of a line with two readings: ``old`` before the row is applied, ``new`` after it.
 
-    ``moved`` is 0, or counts the words that a row moves together.  The place that the words leave and the place that
-    they enter have the same number.
+    ``moved`` is 0, or the number of a group of words that a row moves together.  The place that the words leave and the
+    place that they enter have the same number.
     """
 
     row: Row
@@ -171,8 +171,8 @@ def _changed(
     """Return the pieces after turning the characters ``first`` to ``last`` of the text with all layers into ``place``.
 
     If an earlier place contains the whole fragment, the new place is put into the new reading of the earlier place.  An
-    earlier place that contains only a part of the fragment becomes part of the old reading as a whole; the rest of its
-    text is then repeated in both readings.
+    earlier place that contains only a part of the fragment becomes part of the old reading as a whole; the text of the
+    earlier place outside the fragment is then repeated in both readings.
     """
     before: list[Piece] = []
     within: list[Piece] = []

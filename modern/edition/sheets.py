@@ -92,7 +92,7 @@ class Sheet:
 
 
 def sheets(answered: Iterable[str] = ()) -> tuple[Sheet, ...]:
-    """Return a sheet for each page that has items or questions, except those whose ids are in ``answered``."""
+    """Return a sheet for each page with unanswered items or questions; ``answered`` has the ids of the others."""
     done = set(answered)
     by_page: dict[tuple[str, str], tuple[list[Card], list[Item]]] = {}
     for name in programs.TEXTS:

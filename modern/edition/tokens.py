@@ -60,7 +60,7 @@ def _words(line: str, at: int) -> Iterator[tuple[int, int]]:
 
 
 def _tokens(entry: EditionCard) -> Iterator[tuple[int, int]]:
-    """Yield the tokens of a statement.  The words of a Hollerith text are tokens; its count includes the blanks."""
+    """Yield the tokens of a statement.  The words of a Hollerith text are tokens; the text's length includes blanks."""
     at, text = 0, entry.text
     offset = len(entry.label)
     keyword = _KEYWORD.match(text)
@@ -117,7 +117,8 @@ def _lines(name: str) -> Mapping[str, int]:
 def row_rivals(row: Row) -> Iterator[tuple[int, Rival]]:
     """Yield each card that a row of a committed listing changes, with the replaced reading as a rival.
 
-    Rows that only change blanks or move words have no rivals.  The rival of a card that the row adds is empty.
+    Rows that only change blanks or move words have no rivals.  For a card that the row adds, the text of the rival is
+    empty.
     """
     if row.text not in programs.TEXTS or row.layer not in programs.built_in(row.text).layers:
         return
@@ -140,7 +141,7 @@ def row_rivals(row: Row) -> Iterator[tuple[int, Rival]]:
 
 
 def _rival(n: int, reading: str, origin: str) -> Rival:
-    """Return the rival that turns card ``n`` into ``reading``: the tokens that differ, with their other text."""
+    """Return the rival that turns card ``n`` into ``reading``: the range of tokens that differ, and its other text."""
     text, tokens = edition_cards()[n].solid, spans(n)
     head = common_prefix(text, reading)
     tail = min(common_prefix(text[::-1], reading[::-1]), len(text) - head, len(reading) - head)

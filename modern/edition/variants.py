@@ -162,7 +162,7 @@ def _steps(number: str) -> Iterator[str]:
 
 
 def _alike(name: str) -> set[str]:
-    """Return the names in the listings that differ from ``name`` in one character.  A name of one letter has none."""
+    """Return the names in the listings that differ from ``name`` in one character, but none for a single letter."""
     if len(name) < 2:
         return set()
     return {known for known in _names() if len(known) == len(name) and sum(map(str.__ne__, name, known)) == 1}
@@ -184,7 +184,7 @@ def _confused(char: str) -> tuple[str, ...]:
 
 
 def _formats(text: str) -> Iterator[str]:
-    """Yield a FORMAT with one change: of a count by one, of the first letter of a literal text, or of a separator."""
+    """Yield each FORMAT in which one count, one separator, one E, F, I or X, or one letter of a literal is changed."""
     at = 0
     while at < len(text):
         count = re.compile(r"(\d+)H").match(text, at)

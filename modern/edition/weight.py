@@ -200,7 +200,7 @@ def _disagrees(program: Program, data: Input) -> bool:
 
 
 def _in_the_examples(variant: Variant) -> Program | None:
-    """Return program1_examples with the same change, or None if it lacks the card or does not compile with it."""
+    """Return program1_examples with the change of a variant, or None if it lacks the card or does not compile."""
     examples = {(s.place, s.source.label, s.source.text): s for s in statements("program1_examples")}
     listed = next(s for s in statements("program1") if s.card == variant.card)
     counterpart = examples.get((listed.place, listed.source.label, listed.source.text))
@@ -231,7 +231,7 @@ def _forms() -> Counter[str]:
 
 
 def _form(text: str) -> str:
-    """Return a statement with its names and numbers numbered in the order of their first occurrence.
+    """Return a statement with each name and number replaced by the rank of its first occurrence.
 
     ``X(K)=Y(K)`` becomes ``<0>(<1>)=<2>(<1>)``.
     """
@@ -269,8 +269,8 @@ def weigh(folder: Path, runs: str, workers: int = 1, most: int = 0) -> dict[str,
     """Judge every variant, or the first ``most`` variants, and map the key of each to the check that detects it.
 
     The answers are kept in ``folder/variants.jsonl``.  ``runs`` is a folder of decks for the check ``machine``, or
-    empty.  Raise FileError if ``runs`` contains no deck, if ``folder`` contains answers for other listings, or if it
-    cannot be written.
+    empty.  Raise FileError if ``runs`` contains no deck, if ``folder`` contains answers for other listings, or if
+    ``folder`` cannot be written.
     """
     if runs and not any(Path(runs).glob("*/deck.cards")):
         raise FileError(f"{runs}: expected folders that contain a file deck.cards, found none")

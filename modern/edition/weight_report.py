@@ -99,7 +99,7 @@ def report(answers: Mapping[str, str]) -> str:
 
 
 def _rows(counts: Mapping[str, Sequence[int]]) -> str:
-    """Return the rows of a Markdown table of counts, preceded by the line below its head."""
+    """Return the rows of a Markdown table of counts, preceded by the line that separates them from the table's head."""
     width = len(next(iter(counts.values()), ()))
     rows = (f"| {name} | {' | '.join(map(str, numbers))} |" for name, numbers in counts.items())
     return "\n".join(["|---|" + "---:|" * width, *rows])

@@ -66,7 +66,7 @@ class Path:
 
 @dataclass(frozen=True, slots=True)
 class Landing:
-    """A connector from which a line leads to a box. ``corners`` are those of the line."""
+    """A connector from which a line leads to a box. ``corners`` are the corners of the line."""
 
     box: int
     centre: tuple[int, int]

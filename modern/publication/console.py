@@ -69,7 +69,7 @@ def console_page() -> str:
 
 
 def parting_page() -> str:
-    """Return the HTML of the page that compares the programs with exact arithmetic. It already shows one result."""
+    """Return the HTML of the page that compares the programs with exact arithmetic. It initially shows one result."""
     sets = point_sets()
     first = next(iter(sets.values()))
     return fill(_frame("parting.html"), POINTS=html.escape(first), SETS=_json(sets), FIRST=_json(parted(first)))
@@ -106,7 +106,8 @@ def recorded() -> str:
 def recorded_run() -> Answer:
     """Return a recorded run of program 3 with example 5, which the page shows until Python is loaded.
 
-    The recording has the answer ``load`` and the answers of all slices, ``frames``.
+    ``load`` is the answer to the request that loads the program, and ``frames`` has the answers of all slices of the
+    run.
     """
     desk = Desk(clock=lambda: 0.0, small=10)
     load = desk.load({"program": "program3", "deck": "example5/punched"})

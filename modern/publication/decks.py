@@ -16,7 +16,7 @@ _FOLDERS = {"grounds": ("fortran_src", "grounds"), "counterexamples": ("transcri
 
 
 def offered() -> dict[str, list[list[str]]]:
-    """Return ``programs`` and ``decks`` as lists of name, title and kind. A program reads decks of its kind."""
+    """Return ``programs`` and ``decks`` as lists of name, title and kind. A program reads decks of the same kind."""
     programs = [[b.name, b.title, _KINDS[b.number]] for b in BUILT_INS]
     decks = [[f"example{n}", f"example {n} of chapter 6", POINTS] for n in EXAMPLES]
     decks += [

@@ -55,7 +55,7 @@ class _Visitor(FromFile):
         self._record = record
 
     def forget(self) -> bool:
-        """Drop the lines of the log that remain. Return True if there were any."""
+        """Drop the lines of the log that have not been repeated. Return True if there were any."""
         has_lines, self._lines = bool(self._lines), deque()
         return has_lines
 
@@ -182,13 +182,13 @@ class Desk:
         ``pace`` is the largest speed as a multiple of the speed of a 1620, or 0 for full speed. The answer has these
         values:
 
-        ``events`` lists what happened, each as kind and text. ``card`` is the card that is executed next, ``statement``
-        its number in the run, and ``read`` the number of cards read. ``time`` is the time on a 1620 with its bounds,
-        ``seconds`` the same as a number. ``stands`` is the reason why the machine waits, or empty. ``waits`` is
-        ``typed`` if the machine waits for a line with ``fields``, ``answer`` if it waits for an action, or empty.
-        ``registers`` has the floating-point and the fixed-point accumulator. ``picture``, ``stages`` (their number) and
-        ``wrote`` (fields) come from :mod:`modern.publication.panel`. A run that never ends is stopped, and ``repeats``
-        is the number of statements that it repeats.
+        ``events`` lists the events of the slice, each as kind and text. ``card`` is the card that is executed next,
+        ``statement`` its number in the run, and ``read`` the number of cards read. ``time`` is the time on a 1620 with
+        its bounds, and ``seconds`` is this time as a number. ``stands`` is the reason why the machine waits, or empty.
+        ``waits`` is ``typed`` if the machine waits for a line with ``fields``, ``answer`` if it waits for an action, or
+        empty. ``registers`` has the floating-point and the fixed-point accumulator. ``picture``, ``stages`` (their
+        number) and ``wrote`` (fields) come from :mod:`modern.publication.panel`. A run that never ends is stopped, and
+        ``repeats`` is the number of statements that it repeats.
 
         At the end of the run ``ended`` is true, ``messages`` has the messages of the command, ``next`` names the
         program that reads the punched cards, and ``queued`` is true if a log has further loads.
@@ -335,7 +335,7 @@ class Desk:
         return deck_from_text(str(deck[0]), str(deck[1]))
 
     def _keep(self, name: str, text: str) -> None:
-        """Write the cards of a program or deck that the visitor typed into the log."""
+        """Record in the log the cards of a program or deck that the visitor has typed."""
         if self._texts.get(name) != text:
             self._texts[name] = text
             self._earlier += f"CARDS {name}\n" + "".join(f"CARD {card}\n" for card in text.splitlines())

@@ -53,7 +53,7 @@ def plane_values(arithmetic: str, points: Sequence[Sequence[int]]) -> tuple[str,
 
 
 def plane_row(x: int) -> tuple[str, ...]:
-    """Return D of the plane for a value of x, exactly and in eight digits, and the values in eight digits."""
+    """Return the exact D, the eight-digit D and the eight-digit values of :func:`plane_values` for a value of x."""
     points = ((x, *FIRST), *CORNERS)
     (exact, _), (machine, values) = (plane_values(name, points) for name in ("exact", "truncating"))
     return exact, machine, *values

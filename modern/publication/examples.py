@@ -91,7 +91,7 @@ def example(number: int) -> tuple[Part, ...]:
 
 @cache
 def homes() -> dict[str, tuple[int, str]]:
-    """Return, for each emendation, the first example that shows it, and the id of the part that does."""
+    """Return, for each emendation, the first example that shows it, and the id of this part of the example."""
     first_shown: dict[str, tuple[int, str]] = {}
     for number in EXAMPLES:
         for part in example(number):
@@ -169,7 +169,7 @@ def _source(family: Sequence[Segments]) -> Source:
 
 
 def differing(expected: str, actual: str) -> Spans:
-    """Return the spans of ``actual`` that differ from ``expected``: the whole text if it only lacks characters."""
+    """Return the spans of ``actual`` that differ from ``expected``; all of ``actual`` if it only lacks characters."""
     if expected == actual:
         return ()
     codes = SequenceMatcher(None, expected, actual, autojunk=False).get_opcodes()

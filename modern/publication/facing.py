@@ -58,10 +58,10 @@ class Card:
     """A card of a deck with the witness from which it was made.
 
     ``number`` is the number of the card in the deck, counted from 1. ``label`` is its statement number or 0, and
-    ``page`` the page of the thesis. ``also`` has further names of the card, like ``place``. ``witness`` is empty for a
-    card that the witness lacks. ``changed`` has the ranges of characters that differ from the witness. ``rows`` are the
-    ids of the rows that changed the card, except those that changed most cards of the deck. ``layers`` are the layers
-    of these rows. ``variants`` has the card as optional layers would change it.
+    ``page`` the page of the thesis. ``also`` has further names of the card in the same form as ``place``. ``witness``
+    is empty for a card that the witness lacks. ``changed`` has the ranges of characters that differ from the witness.
+    ``rows`` are the ids of the rows that changed the card, except those that changed most cards of the deck. ``layers``
+    are the layers of these rows. ``variants`` has the card as optional layers would change it.
     """
 
     number: int
@@ -253,7 +253,7 @@ def _base(text: Text, line: str) -> str:
 
 
 def _emptying_row(text: Text, line: str, layers: Collection[str], everywhere: Collection[str]) -> str:
-    """Return the last row in the layers of the deck that changes a witness line from which no card was made."""
+    """Return, for a witness line from which no card was made, the last row of the deck's layers that changes it."""
     for row in reversed([row for row in text.rows if row.layer in layers and row.id not in everywhere]):
         for change in row.changes:
             span = range(int(change.line), int(change.through) + 1) if change.through else ()

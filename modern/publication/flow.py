@@ -161,7 +161,7 @@ def _selected(targets: Sequence[int]) -> list[tuple[str, Side, int]]:
 
 
 def _forwarded(boxes: Sequence[Box]) -> list[Box | None]:
-    """Replace the box of each GO TO without a statement number by None, and lead the box before it to the target."""
+    """Replace each unnumbered GO TO by None, and let the exit of the box before it lead to the target of the GO TO."""
     forwarded: list[Box | None] = list(boxes)
     come_from = _sources(boxes)
     for place, box in enumerate(boxes):

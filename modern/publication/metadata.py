@@ -43,7 +43,7 @@ class Work:
     person: str = ""
 
     def identifiers(self) -> dict[str, str]:
-        """Return the DOI, the SWHID, the repository and the responsible person by name, or ``UNKNOWN`` for each."""
+        """Return DOI, SWHID, repository and responsible person by name, with ``UNKNOWN`` for each that is empty."""
         return {name: getattr(self, name) or UNKNOWN for name in _IDENTIFIERS}
 
 

@@ -2,8 +2,9 @@
 
 The programs run with the decks of chapter 6. The *moment* of a block is the end of its first execution that changes the
 points or the equations, or the end of its first execution if none does. ``marks`` of the commentary
-(``fortran_src/commentary``) name the variables whose points are highlighted: ``I`` and ``I1 I2`` contain numbers of
-points, ``plane NETC`` the number of an equation, and ``at C1 C2 C3`` coordinates.
+(``fortran_src/commentary``) name the variables whose points are highlighted. For example, the variables of ``I`` and
+``I1 I2`` contain numbers of points, the variable NETC of ``plane NETC`` contains the number of an equation, and the
+variables of ``at C1 C2 C3`` contain coordinates.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence

@@ -58,8 +58,8 @@ def picture(session: Session, state: tuple[list[Any], list[Any]] | None = None) 
 
     The result has ``points``, the number of ``vertices``, which are the first points, and ``faces`` as lists of indices
     of points. Points come from the variables X, Y and Z (in program 2, R, S and T), the number of vertices from NV, and
-    the faces from MM, NN and KK up to index NE. The variables have their present values, or those of an earlier
-    ``state``, a pair of values and kinds.
+    the faces from the arrays MM, NN and KK, whose first NE entries hold numbers of points. The variables have their
+    present values, or those of an earlier ``state``, a pair of values and kinds.
     """
     storage = session.program.storage
 
@@ -158,7 +158,7 @@ def compile_messages(text: str) -> list[list[Any]]:
 
 
 def formats(program: Program) -> list[list[Any]]:
-    """Return the FORMATs by which a program reads cards, each as a title and the fields of the FORMAT's first card."""
+    """Return the FORMATs with which a program reads cards, each as a title and the fields of its first card."""
     numbers = {i.second: None for i in program.code if i.operation == op.BEGIN and program.verbs[i.address] == "READ"}
     read = (program.formats[number] for number in numbers)
     return [[f"FORMAT {label}", Layout(spec).record_fields(0)] for label, spec in read]

@@ -177,7 +177,7 @@ def _program_hull(run: HullRun, typed: Sequence[Sequence[str]]) -> tuple[list[st
 
 
 def _in_order(points: Sequence[Whole], loop: Sequence[int]) -> tuple[int, ...]:
-    """Sort the corners of a face that the programs punched into their order around the face."""
+    """Return the corners of a face that the programs punched, sorted in their order around the face."""
     corners = [n for n in loop if n >= 0]
     for a, b, c in combinations(corners, 3):
         normal = cross(minus(points[b], points[a]), minus(points[c], points[a]))

@@ -1,7 +1,7 @@
 """Intermediate results of three papers as objects in space: hidden lines, cells of a ball, octants of a hull.
 
-The objects have no colour; ``site/pages/papers.py`` draws them. For the fourth paper, Appel and Will, that module draws
-the convex edges and loops that :mod:`modern.papers.appel_will` returns.
+The objects have no colour; ``site/pages/papers.py`` draws them. For the fourth paper, Appel and Will's, ``papers.py``
+draws the convex edges and loops that :mod:`modern.papers.appel_will` returns.
 """
 
 from collections.abc import Iterable, Iterator
@@ -77,8 +77,8 @@ def hidden_lines() -> tuple[Eye, tuple[Plate, ...]]:
     """Draw the scene ``house`` in four steps (Nakamae and Nishita, sections 3.1 to 3.5), and return the eye and the
     steps.
 
-    The first step has all lines. The others remove edges between faces that are turned away, parts behind contours, and
-    ghost lines.
+    The first step has all lines. The other steps remove edges between faces that are turned away, parts behind
+    contours, and ghost lines.
     """
     model = scene("house")
     x, y, z = (int(number) for number in model.sight.eye)

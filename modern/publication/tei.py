@@ -1,10 +1,10 @@
 """Write a text of the edition as TEI P5: its witness with all emendations, and a program's commentary.
 
 Every line of the witness is an ``ab`` element. By parallel segmentation, an ``app`` element in a line holds the
-readings of a passage. Other elements hold what no source has: ``choice`` a modern patch, and ``space`` and ``surplus``
-the blanks that the edition adds and removes. ``seg`` holds a displaced piece, and a ``transpose`` element in the header
-names the ``anchor`` before which the piece belongs. Each row of the apparatus has one ``app`` with its reasons; a row
-that has no reading of its own is documented by an ``app`` of ``standOff``.
+readings of a passage. Other elements hold changes that no source has: ``choice`` a modern patch, ``space`` blanks that
+the edition adds, and ``surplus`` blanks that it removes. ``seg`` holds a displaced piece, and a ``transpose`` element
+in the header names the ``anchor`` before which the piece belongs. Each row of the apparatus has one ``app`` with its
+reasons; a row that has no reading of its own is documented by an ``app`` of ``standOff``.
 
 The module ``tei_schema`` describes every element, ``tei_header`` writes the header, ``tei_register`` writes the
 verdicts on the statements, and ``tei_reading`` restores witness, corrected text and cards from a document.

@@ -96,8 +96,8 @@ def _listing(root: Element) -> Iterator[Element]:
 class _State:
     """The text after some of its emendations.
 
-    ``rows`` has the references (``#id``) of the ``app`` elements whose emendations are made. ``pieces`` maps the
-    reference of each place to which text is moved to the ``seg`` element with that text.
+    ``rows`` has the references (``#id``) of the ``app`` elements whose emendations are made. ``pieces`` has the ``seg``
+    elements of displaced text; the key of each is the reference of the place to which the text is moved.
     """
 
     rows: frozenset[str]

@@ -1,8 +1,8 @@
 """Compile the project's ODD to RELAX NG.
 
-The file ``hull1620.odd`` describes every element and attribute of the TEI documents, and what they mean here (TEI P5,
-chapter 22). The compiler needs no TEI software, because each ``elementSpec`` replaces the definition of the TEI
-completely and its content model names elements instead of classes.
+The file ``hull1620.odd`` describes every element and attribute of the TEI documents, and their meaning in this edition
+(TEI P5, chapter 22). The compiler needs no TEI software, because each ``elementSpec`` replaces the definition of the
+TEI completely and its content model names elements instead of classes.
 """
 
 from collections.abc import Iterable
@@ -84,7 +84,7 @@ def _attribute_list(target: Element, entries: Element) -> None:
 
 
 def _values(attribute: Element, entry: Element) -> None:
-    """Write the permitted values of an attribute: a closed list or a datatype, once or several times."""
+    """Write the permitted values of an attribute, from a closed list or a datatype: one value, or several."""
     data = entry.find(f"{_TEI}datatype/{_TEI}dataRef")
     values = [item.get("ident", "") for item in entry.iterfind(f"{_TEI}valList/{_TEI}valItem")]
     if data is None:

@@ -22,7 +22,7 @@ _SIGNS = ("\u2212", "0", "+")
 class Jump:
     """A reference from the card with the number ``card`` to the card ``target``.
 
-    ``kind`` is ``jump`` for a transfer of control, ``again`` for the last statement of a DO loop, which returns to the
+    ``kind`` is ``jump`` for a transfer of control, ``again`` for the return from the last statement of a DO loop to the
     first, and ``format`` for an input or output statement that uses a FORMAT. ``taken`` is the condition of a jump, or
     empty if the jump is unconditional. For a FORMAT, ``taken`` is the verb of the statement.
     """

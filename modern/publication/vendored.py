@@ -3,7 +3,8 @@
 The deposit contains the wheels of the run-time dependencies and of the packages that build the wheel, the site and the
 book, at the versions that ``locks`` pins with hashes.  It also contains the part of Pyodide that the emulator's page
 loads.  A binary wheel fits only the platform of the machine that collects it.  Pip takes the wheels from its cache or
-from a package registry.  If neither has a wheel, the deposit lacks it, and the deposit's README names it.
+from a package registry.  If neither of them has a wheel, the deposit lacks this wheel, and the deposit's README names
+it.
 """
 
 import re

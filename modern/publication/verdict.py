@@ -36,10 +36,10 @@ def verdict(program: Program, deck: Deck, options: Options) -> dict[str, Any]:
     """Compare a run with exact arithmetic, and its hull with the true hull.
 
     In the answer, ``lines`` describe the first decision that exact arithmetic takes differently, with the value and the
-    target in both arithmetics. If there is no such decision, they give the reason. ``statement`` is the number of the
-    deciding statement in the run. ``says`` is a sentence about the result. ``hull`` is the true hull of the points of
-    the first stage, and ``final`` is the hull on the cards. Both have ``missed``, the vertices that only the true hull
-    has, ``extra``, the vertices that only the program's hull has, and ``wrong``, the numbers of the faces that the
+    target in both arithmetics. If there is no such decision, ``lines`` gives the reason. ``statement`` is the number of
+    the deciding statement in the run. ``says`` is a sentence about the result. ``hull`` is the true hull of the points
+    that the program read, and ``final`` is the hull on the cards. Both have ``missed``, the vertices that only the true
+    hull has, ``extra``, the vertices that only the program's hull has, and ``wrong``, the numbers of the faces that the
     other hull lacks.
     """
     record = panel.Record(program)
@@ -130,7 +130,7 @@ def _without(some: Sequence[int], others: Sequence[int], points: Sequence[Whole]
 
 
 def _on(points: Sequence[Whole], face: Sequence[int], dimension: int) -> frozenset[Whole]:
-    """Return the points in the plane (or on the line) of a face, or no points if it does not support the hull."""
+    """Return the points in the plane (or on the line) of a face, or none if the plane does not support the hull."""
     a, b = points[face[0]], points[face[1]]
     if dimension == 3:
         normal = cross(minus(b, a), minus(points[face[2]], a))

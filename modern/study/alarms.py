@@ -2,14 +2,15 @@
 
 The operations of each program of a run are recorded on a tape (emulator/machine/tape.py) and repeated in other
 arithmetics along the branch that the machine took.  A decision is *wrong* if the exact value of the tested number leads
-to another target.  Only decisions up to the first wrong decision are judged, because after it the program computes
-something else.
+to another target.  Only decisions up to the first wrong decision are judged, because after a wrong decision the run
+computes something other than the exact run.
 
 A method raises an *alarm* at a decision if it cannot confirm the target that the machine took:
 
 - ``cadna3`` and ``cadna10``: among 3 or 10 samples with random rounding (CESTAC), the mean has no significant digit by
   the criterion of CADNA, or leads to another target.
-- ``parker10``: the same by the criterion of Stott Parker, which estimates the significant digits of a single sample.
+- ``parker10``: the same condition for ten samples, but with the criterion of Stott Parker, which estimates the
+  significant digits of a single sample.
 - ``vote10``: the ten samples, each by its own sign, do not all lead to the target that the machine took.
 - ``interval``: the bounds of the number do not both lead to the target that the machine took.
 - ``double``: arithmetic with twice the digits leads to another target.
@@ -70,7 +71,8 @@ class _Tally:
     spoils: by method, the number of right decisions that the method would change.  caught: by method, 1 if it raises an
     alarm at the first wrong decision.  repaired: by method, 1 if it takes the right branch at the first wrong decision.
     e_right: for each k, the number of right decisions at which e = 10**k is the least power of ten that raises an
-    alarm.  e_first: this k at the first wrong decision.  digits: the estimated digits by method and true digits.
+    alarm.  e_first: this k at the first wrong decision.  digits: the estimates of the correct digits of numbers, by
+    method and by the true number of correct digits.
     """
 
     tests: int = 0
@@ -89,7 +91,7 @@ def alarms(sample: Sample, run: HullRun) -> Figures:
 
     ``first`` is the statement of the first wrong decision.  For each method M, ``M_false`` is the number of alarms at
     right decisions, and ``M_spoils`` is the number of right decisions that M would change.  ``M_caught`` is 1 if M
-    raises an alarm at the first wrong decision, and ``M_repaired`` is 1 if M takes the right branch there.
+    raises an alarm at the first wrong decision, and ``M_repaired`` is 1 if M takes the right branch at this decision.
     """
     tally, counts = _Tally(), Counter[int]()
     seed = int(hashlib.sha256("\n".join(card.text for card in sample.deck.cards).encode("ascii")).hexdigest()[:7], 16)
@@ -160,7 +162,7 @@ def _rules(seed: int) -> Rules:
 
 
 def _estimated(drawn: Any, factor: float) -> list[tuple[float, bool, float]]:
-    """Return for each number the mean of its samples, True if no digit is significant, and its significant digits.
+    """Return for each number the mean of its samples, True if no digit is significant, and its count of such digits.
 
     If all samples of a number are equal, all its digits are significant.
     """
@@ -225,7 +227,7 @@ def _judged(tally: _Tally, test: Test, known: Mapping[str, Any], has_e: bool) ->
 
 
 def _count_digits(tally: _Tally, known: Mapping[str, Any], bounds: Interval) -> None:
-    """Add the estimated digits of a number to the counts for its true digits, if the number has an error."""
+    """Add the estimated digits of a number to those of numbers with as many true digits, if the number has an error."""
     mantissa, exponent = known["machine"]
     ratio = float(known["exact"]) / (mantissa * 10.0 ** (exponent - DIGITS))
     # A relative error below the last digit of the machine is a rounding error of this computation.

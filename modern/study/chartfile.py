@@ -1,7 +1,8 @@
 """The file ``charts.json``, which stores the charts of a report so that ``study --redraw`` can draw them again.
 
 The file is a list.  Each chart has a kind (``bars`` or ``lines``), the fields of :class:`modern.study.report.Bars` or
-``Lines``, marks, and series with points ``[position, value, low, high]``.  A null stands for an infinite limit.
+``Lines``, marks, and series with points ``[position, value, low, high]``.  A null stands for an infinite limit of an
+interval.
 """
 
 import json

@@ -85,7 +85,7 @@ def _opened(path: Path) -> sqlite3.Connection:
 
 
 def clear(index: sqlite3.Connection) -> None:
-    """Delete all entries."""
+    """Delete all rows of the index."""
     index.executescript("BEGIN; DELETE FROM samples; DELETE FROM runs; COMMIT")
 
 

@@ -127,7 +127,8 @@ def position(program: Program, line: Line) -> str:
 def _refused_at(step: Step, message: str) -> str:
     """Return the statement that made a program type DATA NOT ACCEPTABLE or ERROR IN PROGRAM: ``program3 119``.
 
-    One statement of a program types all its errors, so for an error this is the last decision before that statement.
+    One statement of a program types ERROR IN PROGRAM for every error.  The result for an error is therefore the last
+    decision before that statement.
     """
     typed = next(event for event in reversed(step.result.events) if event.what == "type" and event.text == message)
     line = typed.decision if message == ERROR and typed.decision else typed.line
@@ -146,7 +147,7 @@ def _looping_at(step: Step) -> str:
 
 
 def _reached(step: Step) -> str:
-    """Return the array element that is out of bounds, ``program3 A(99)``, or the statement if it has no name."""
+    """Return the array element that is out of bounds, ``program3 A(99)``, or the statement if the name is unknown."""
     ending = step.result.ending
     if not ending.name:
         return _stopped_at(step)

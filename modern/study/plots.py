@@ -147,7 +147,7 @@ def _together(axes: Any, chart: Chart) -> None:
 
 
 def _panels(figure: Any, chart: Chart) -> None:
-    """Draw each series on its own axes, with equal scales.  In a line chart the other series are grey, behind it."""
+    """Draw each series on its own axes, with equal scales.  In a line chart the other series are behind it in grey."""
     across = 3 if len(chart.series) > 4 else 2
     down = ceil(len(chart.series) / across)
     high = max(1.7, _ROW * len(names(chart))) if isinstance(chart, Bars) else 1.7

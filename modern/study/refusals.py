@@ -2,7 +2,7 @@
 
 The thesis attributes its two failures in about seventy sets to the eight digits of the machine.  The programs reject
 sets like the data sheet of chapter 5 (:func:`modern.study.families.thesis.data_sheet`) more often if more of their
-coordinates are decimals.  The report tells how many such sets among seventy would explain two rejections.
+coordinates are decimals.  The report states how many such sets among seventy would explain two rejections.
 """
 
 from dataclasses import dataclass

@@ -144,7 +144,7 @@ def plain_lines(plan: Plan) -> tuple[str, ...]:
 def _compiling(plan: Plan, quiet: bool) -> Iterator[subprocess.Popen[bytes] | None]:
     """Compile the code that a plan needs in another process, while the workers use the interpreter.
 
-    If the compilation fails, print a note at the end of the block, unless ``quiet`` is true.
+    If the compilation fails, print a note at the end of the ``with`` block, unless ``quiet`` is true.
     """
     calls = []
     if must_compile() and any(not why_plain(options_of(route)) for route in _program_routes(plan)):

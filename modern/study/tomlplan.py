@@ -1,8 +1,9 @@
 """Read a plan from a TOML file, which describes a study without Python code.
 
-docs/how-to/own-study.md describes every key.  A cell uses all routes unless it lists some.  The default key of a cell
-consists of its family and parameters.  ``family = "mine:points"`` names the function ``points`` of ``mine.py`` next to
-the plan or on Python's module path; ``measures = ["mine:spread"]`` names a measure in the same way.
+docs/how-to/own-study.md describes every key.  A cell uses all routes of the plan unless its key ``routes`` lists some.
+The default key of a cell consists of its family and parameters.  ``family = "mine:points"`` names the function
+``points`` of ``mine.py`` next to the plan or on Python's module path; ``measures = ["mine:spread"]`` names a measure in
+the same way.
 """
 
 import re
@@ -52,13 +53,13 @@ class _Section:
     number: int = 0
 
     def error(self, message: str, key: str = "") -> PlanError:
-        """Return an error that names the file, the section, and the line of the key or else of the section."""
+        """Return an error that names the file, the section, and the line of the key or, without one, of the section."""
         section = f"{self.name} {self.number}: " if self.name else ""
         return PlanError(f"{self._place(key)}: {section}{message}")
 
     @contextmanager
     def locating(self, key: str = "") -> Iterator[None]:
-        """Turn an error of the block into a PlanError that names the file and the line."""
+        """Turn an error in the ``with`` block into a PlanError that names the file and the line."""
         try:
             yield
         except EmulatorError as error:

@@ -93,7 +93,7 @@ def run_chapter6(options: argparse.Namespace) -> int:
 
 
 def _committed(path: str, text: str, write: bool) -> int:
-    """Compare a result with its committed file, which is replaced first if ``write``.  Return 1 if they differ."""
+    """Compare a result with its committed file.  If ``write``, replace the file first.  Return 1 if they differ."""
     if write:
         write_text(path, text)
     same = read_text(path) == text
@@ -122,7 +122,7 @@ def run_programs(options: argparse.Namespace) -> int:
 
 
 def run_measure(options: argparse.Namespace) -> int:
-    """Execute the recorded statements again, and random ones.  Return 1 if the library or the emulator differs."""
+    """Execute recorded and random statements.  Return 1 if the library or the emulator gives another result."""
     deck, vectors = object_deck(), load()
     again = measure([(vector.statement, vector.cards) for vector in vectors], deck)
     changed = sum(not same(first.outcome, second.outcome) for first, second in zip(vectors, again, strict=True))

@@ -64,7 +64,7 @@ def _input(example: int, name: str) -> Sequence[str]:
 
 
 def results() -> dict[str, str]:
-    """Run all examples, also without each emendation, and return the texts of the result files by name."""
+    """Run all examples with all emendations and without each one, and return the result files as texts by name."""
     cards = [(row.example, row.program, row.card, row.verdict) for row in verdicts()]
     rows = [(name, *answer) for name in NAMES for answer in confirmed(name)]
     return {

@@ -113,9 +113,9 @@ def run(
     keys
         The lines to type, one for each time that the program waits for the typewriter.
     starts
-        The sense switches that are on whenever START is pressed after a PAUSE.
+        For each time that START is pressed after a PAUSE, the sense switches that are on.
     timed
-        Return the time of the instructions executed after loading.
+        Return also the time of the instructions executed after loading.
 
     Raises
     ------
@@ -192,7 +192,7 @@ def _result(log: str, punched: Sequence[str]) -> Run:
 
 
 def _typewriter(command: list[str], folder: Path, keys: Sequence[str], seconds: float) -> str:
-    """Run the simulator and type a line at each prompt.  Return everything it wrote.  Raise Failed."""
+    """Run the simulator and type one of the lines ``keys`` at each prompt.  Return all of its output.  Raise Failed."""
     deadline = time.monotonic() + seconds
     waiting = list(keys)
     log = b""

@@ -1,4 +1,4 @@
-"""Execute a single input or output statement on IBM's library of 1962: its object code, its data, and its effects."""
+"""Make the object code of single input and output statements, and execute them on IBM's library of 1962."""
 
 from __future__ import annotations
 

@@ -60,7 +60,7 @@ print(array.size, peak)
 
 
 def figures() -> Iterator[Figure]:
-    """Time the filled hulls of balls, with and without compiled code, scikit-image, and whole commands."""
+    """Time the filling of balls' hulls with and without compiled code and by scikit-image, and time whole commands."""
     ways = ([("compiled", True)] if find_spec("numba") else []) + [("plain", False)]
     for side in (64, *REQUIRED):
         array = ball(side, VERTEX).array
@@ -91,9 +91,9 @@ def lines() -> Iterator[str]:
 
 
 def table(volume: Volume, slow: bool) -> Table:
-    """Time the hulls of a solid's voxel centres in turn, in processor seconds.  If ``slow``, run scikit-image once too.
+    """Time three ways to find the hull of a solid's voxel centres.  If ``slow``, time scikit-image once too.
 
-    The title of the table reports if the hulls are not the same.
+    Times are in processor seconds.  The title of the table reports if the hulls are not the same.
     """
     works = {
         OCTREE: lambda: octree_hull(volume),
@@ -146,7 +146,7 @@ def memory(side: int, way: str) -> str:
 
 
 def peak(side: int, way: str) -> tuple[int, float]:
-    """Return the number of voxels in the box of a ball, and the peak memory in bytes of computing the ball's hull.
+    """Return the number of voxels in a ball's bounding box, and the peak memory in bytes of computing the hull.
 
     The peak is the median of three processes.
     """

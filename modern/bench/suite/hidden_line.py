@@ -40,7 +40,7 @@ def block(count: int) -> list[Polyhedron]:
 
 
 def drawn(polyhedra: list[Polyhedron]) -> Drawing:
-    """Draw the polyhedra by steps II and III of the paper, including the proof that no two polyhedra intersect."""
+    """Draw the polyhedra by steps II and III of Nakamae and Nishita, after the check that no two of them intersect."""
     return draw(polyhedra, parallel(EYE))
 
 

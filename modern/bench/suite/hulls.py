@@ -152,7 +152,7 @@ def lines(largest: int = 1_000_000) -> Iterator[str]:
 
 
 def starts() -> Iterator[Figure]:
-    """Time processes that compute one small hull: with numpy alone, with compiled code, and with compiling it first."""
+    """Time processes that compute one small hull: with numpy, with compiled code, and with code that they compile."""
     if not find_spec("numba"):
         return
     yield timed("a process with one small hull, numpy", small_hull(False))

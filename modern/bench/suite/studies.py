@@ -1,4 +1,4 @@
-"""Time the built-in studies: rows for each second of two cores, and the first rows of a cold start.
+"""Time the built-in studies: the rows that two cores compute in a second, and the time to the first rows.
 
 ``python -m modern.bench.suite.studies [NAME ...]`` prints a row of the table in ``docs/explanation/studies.md`` for
 each study.  The rate is measured in processor time, so that other activity on the machine affects it little: a few

@@ -64,7 +64,7 @@ def print_ending(result: Result) -> None:
 
 
 class _StreamError(Exception):
-    """Raised instead of the OSError of a standard stream, which ``writing`` would report as that of a named file."""
+    """Raised instead of a standard stream's OSError, which ``writing`` would report as an error of a named file."""
 
     def __init__(self, error: OSError) -> None:
         super().__init__()

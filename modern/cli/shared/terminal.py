@@ -223,7 +223,8 @@ class Terminal(Operator):
     def _erase(self, prompt: str, count: int) -> None:
         """Erase the last characters of the line that the operator is typing.
 
-        Backspace cannot move to an earlier row of the screen, so then the remaining text is shown again on a new row.
+        If these characters begin on an earlier row of the screen, which backspace cannot reach, the remaining text is
+        shown again on a new row.
         """
         remaining, row = self._line[: len(self._line) - count], self._keys.width + 1
         if len(prompt + remaining) // row == len(prompt + self._line) // row:

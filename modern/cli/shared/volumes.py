@@ -58,7 +58,7 @@ def note_lines(notes: Sequence[str]) -> Iterator[str]:
 
 
 def in_space(world: World | None, space: str) -> World | None:
-    """Return the physical coordinates, turned as ``--space`` requests, or None for voxel indices.
+    """Return the physical coordinates with the axes that ``--space`` requests, or None for voxel indices.
 
     Raise UsageError if the file does not state where its voxels lie, or which way its axes point.
     """

@@ -93,9 +93,9 @@ def documents() -> dict[str, str]:
 
 
 def _subjects(texts: Mapping[str, str]) -> dict[str, str]:
-    """Return the entries of the book's index by label, for links to the glossary, and by name in lower case.
+    """Return the entries of the book's index by their labels in the glossary and by their names in lower case.
 
-    A term of the glossary that occurs often is not found by its name, so only links to its label are indexed.
+    For a glossary term that occurs often, only links to its label are indexed and not each occurrence of its name.
     """
     terms = re.findall(r"^## (.+)$", texts[_GLOSSARY], re.MULTILINE)
     labels = [place for place in places(_GLOSSARY, texts[_GLOSSARY]) if place != label(_GLOSSARY)]

@@ -49,7 +49,7 @@ def code(text: str) -> str:
 
 
 def block(text: str) -> str:
-    """Return lines of a program as a block.  Long lines reduce the size of the letters, down to a limit."""
+    """Return lines of a program as a block.  The letters are smaller if lines are long, down to a limit."""
     size = max(_LEAST, min(_CODE, _LETTERS / max(map(len, text.splitlines()), default=1)))
     return f"#listing({size:.1f}pt, {string(text.rstrip(chr(10)))})\n\n"
 
@@ -80,10 +80,10 @@ def table(
 ) -> str:
     """Return a table as Typst markup.
 
-    ``widths`` are the longest cell of each column in characters, and ``longest`` its longest word. ``right`` has the
-    indices of the columns of numbers, which are aligned to the right. A table that is too wide is split, and both
-    halves have the columns that name the rows. Raise ValueError for a table that would need smaller letters than
-    ``_SMALL``.
+    For each column, ``widths`` has the length of the longest cell in characters, and ``longest`` that of the longest
+    word. ``right`` has the indices of the columns of numbers, which are aligned to the right. A table that is too wide
+    is split, and both halves have the columns that name the rows. Raise ValueError for a table that would need smaller
+    letters than ``_SMALL``.
     """
     rows = list(rows)
     longest = [min(width, _WORD) for width in widths] if longest is None else longest

@@ -22,8 +22,8 @@ _TABLES = (".csv", ".json", ".jsonl")
 class Download:
     """A file in the folder of downloads.
 
-    ``files`` has the contents of the files in a zip archive by name.  For a file that is not an archive, it has the
-    file itself.
+    ``files`` has the contents of the files in a zip archive by name.  For a download that is not an archive, it has
+    only the file itself.
     """
 
     name: str

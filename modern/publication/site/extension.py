@@ -76,7 +76,7 @@ _SECTION = re.compile(r"(?:Page |Sheet |Error )?(\d\S*?|E\d+)[.:]?(?= |$)")
 
 
 def _jump_list(content: list[Part]) -> str:
-    """Return a bar of links to the sections of a long page, which stays in the window, or nothing for a short page."""
+    """Return a bar of links to the sections of a long page, which does not scroll away, or "" for a short page."""
     parts = [part for part in content if part.heading and part.level == 1]
     if len(parts) < _LONG:
         return ""

@@ -25,7 +25,7 @@ class Part:
 
 
 def slug(prefix: str, title: str) -> str:
-    """Return the id of a heading: the prefix, and the title with a hyphen for each character but letters and digits."""
+    """Return the id of a heading: the prefix and the title, in which hyphens replace all but letters and digits."""
     return f"{prefix}-" + "".join(c if c.isalnum() else "-" for c in title.lower())
 
 

@@ -108,7 +108,7 @@ _NARROW = 40
 
 
 def stacked(html: str) -> str:
-    """Return the HTML of a page with the tables prepared that are too wide for a phone.
+    """Prepare the tables of a page that are too wide for a phone, and return the HTML of the page.
 
     Such a table gets the class ``stacks``, and each cell gets the heading of its column as ``data-label``.  In a narrow
     window, the style sheet shows each row of the table as a list.  On paper, it allows line breaks after no-break
@@ -205,7 +205,7 @@ def inline(svg: str, key: str, cls: str = "drawing", percent: int = 100) -> str:
 
 
 def figure(svg: str, key: str, caption: str, cls: str = "drawing", description: str = "") -> str:
-    """Return a picture with a caption in HTML and, unless it has one, a description for screen readers."""
+    """Return a picture with a caption in HTML, and with a description for screen readers if the picture has none."""
     if description and "<desc" not in svg:
         svg = svg.replace("<title>", '<title id="title">', 1)
         svg = svg.replace("</title>", f'</title>\n<desc id="desc">{escape(description)}</desc>', 1)

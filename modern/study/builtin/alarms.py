@@ -86,10 +86,10 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
 class _Group:
     """Counts of the runs of one or several cells.
 
-    wrong: runs with a wrong decision.  sound: runs in which all decisions are right.  The others are counted by method.
-    noticed: runs with an alarm at the first wrong decision.  repaired: runs whose first wrong decision the method takes
-    rightly.  warned: runs with an alarm at or before the first wrong decision.  alarmed: sound runs with an alarm.
-    spoiled: sound runs with a decision that the method would change.  false: alarms at right decisions.
+    wrong: runs with a wrong decision.  sound: runs in which all decisions are right.  The other attributes are counts
+    by method.  noticed: runs with an alarm at the first wrong decision.  repaired: runs whose first wrong decision the
+    method takes rightly.  warned: runs with an alarm at or before the first wrong decision.  alarmed: sound runs with
+    an alarm.  spoiled: sound runs with a decision that the method would change.  false: alarms at right decisions.
     """
 
     wrong: int = 0

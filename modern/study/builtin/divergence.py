@@ -2,8 +2,8 @@
 
 Each set goes through the programs as listed.  Then every program runs again in exact arithmetic on the same cards, in
 step with the first run, up to the first IF, computed GO TO or end of a DO at which the two runs diverge
-(emulator/machine/divergence.py).  On the cards between two programs, equations are truncated to eight digits, so a
-plane may already miss its own points there.  ``samples`` counts the sets of each family.
+(emulator/machine/divergence.py).  On the cards between two programs, equations are truncated to eight digits, so the
+points that define a plane may no longer satisfy its equation.  ``samples`` counts the sets of each family.
 """
 
 from collections import Counter
@@ -53,7 +53,8 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
 class _Divergences:
     """Counts of sets by cell and by the first statement that decided differently.
 
-    right: the sets with the right hull among them.  undecided: the number of sets that exact arithmetic cannot follow.
+    right: the same counts for sets whose hull is right.  undecided: the number of sets that exact arithmetic cannot
+    follow.
     """
 
     counts: Counter[tuple[int, str]]

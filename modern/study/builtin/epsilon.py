@@ -97,13 +97,13 @@ def _programs(name: str, epsilon: str) -> Programs:
 
 @dataclass(frozen=True, slots=True)
 class _Rows:
-    """Counts of the rows: outcomes, and sets with a swallowed vertex by cell and route."""
+    """Counts by cell and route: of outcomes, and of sets with a swallowed vertex."""
 
     counts: Summary
     swallowed: Mapping[tuple[int, str], int]
 
     def swallows(self, cell: int, route: str) -> Interval:
-        """Return the share of sets in which a route loses a vertex or treats a solid as flat."""
+        """Return the share of a cell's sets for which a route loses a vertex or treats a solid as flat."""
         return exact(self.swallowed.get((cell, route), 0), self.counts.of(cell, route))
 
     def clean(self, cell: int, name: Name, tried: tuple[int, ...]) -> list[int]:
@@ -256,7 +256,7 @@ def _conclusions(plan: Plan, rows: _Rows, store: Store) -> tuple[str, ...]:
 
 
 def _same_as_port(store: Store) -> tuple[int, int]:
-    """Return how many runs of the programs agree with the port at the same e, except in order, and their number."""
+    """Return how many runs of the programs agree, except in order, with the port at the same e, and of how many."""
     same = of = 0
     for k in ABSOLUTE:
         alike, runs = next(
@@ -272,7 +272,7 @@ def _same_as_port(store: Store) -> tuple[int, int]:
 
 
 def _wrong_outside(plan: Plan, rows: _Rows, store: Store, below: bool) -> tuple[int, int]:
-    """Return how many sets have a wrong hull if e is below (or above) every e without failures, and their number."""
+    """Return how many sets have a wrong hull at an e below (or above) every e without failures, and of how many."""
     wrong = of = 0
     for number, cell in enumerate(plan.cells):
         clean = rows.clean(number, taken, ABSOLUTE)

@@ -1,9 +1,9 @@
 """Study the benefit of different roundings: truncation, IBM's rounded product, a guard digit, rounding, binary floats.
 
 Two tests are compared.  The exact test of the thesis requires that the three points of a plane give zero in its
-equation.  For the exact test, decimal arithmetics run in the programs with the layer ``corrected``, and binary
-arithmetics in the port.  For the interval of chapter 7 (thesis p. 117), scaled to the largest coefficient of each
-equation, all arithmetics run in the port.  ``samples`` counts the sets of a cell.
+equation.  For this test, decimal arithmetics run in the programs with the layer ``corrected``, and binary arithmetics
+in the port.  For the interval of chapter 7 (thesis p. 117), scaled to the largest coefficient of each equation, all
+arithmetics run in the port.  ``samples`` counts the sets of a cell.
 """
 
 from collections.abc import Mapping
@@ -51,7 +51,7 @@ _SHOWN = "whole numbers of 4 digits"
 
 
 def within(way: str, power: int) -> str:
-    """Return the name of the route through the port with an arithmetic and an interval of width 10**power."""
+    """Return the name of the route through the port with an arithmetic and the interval for e = 10**power."""
     return f"{way}, e = 10^{power}"
 
 

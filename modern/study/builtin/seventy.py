@@ -5,8 +5,8 @@ listed, and with the one card that corrects the removal of the last pair of insi
 A set fails if the programs do not give its hull.  ``samples`` counts the sets and is a multiple of seventy.
 
 These sets have integer coordinates, for which eight digits are sufficient, so no set is rejected as DATA NOT
-ACCEPTABLE.  The data sheet of chapter 5 (p. 58-59) has decimals.  So sets like it, ``samples`` / 70 for each share of
-decimals, go through the programs as listed too.
+ACCEPTABLE.  The data sheet of chapter 5 (p. 58-59) has decimals.  Sets like this data sheet, ``samples`` / 70 for each
+share of decimals, therefore go through the programs as listed too.
 """
 
 from collections import Counter
@@ -77,7 +77,7 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
 
 @dataclass(frozen=True, slots=True)
 class _Route:
-    """The results of one route: the number of failures in each group of seventy sets, and the number of each cause."""
+    """The results of one route: the number of failures in each group of seventy sets, and the number for each cause."""
 
     name: str
     failures: tuple[int, ...]

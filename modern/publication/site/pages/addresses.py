@@ -1,8 +1,8 @@
 """The Index: subjects, error numbers, rows of the apparatus, names and cards, each with its address.
 
 The lists are plain HTML and can be read, printed and searched without JavaScript. The script ``edition.js`` filters the
-lists by the text in the input field. The script ``find.js`` shows matching entries on the search page, before the
-pages.
+lists by the text in the input field. The script ``find.js`` shows matching entries on the search page, above the
+matching pages.
 """
 
 import csv
@@ -53,7 +53,7 @@ def make(argument: str) -> list[Part]:
 
 
 def places() -> Iterator[Place]:
-    """Yield all entries of the Index, then the statements. Of several entries with one name, the first is the best."""
+    """Yield all entries of the Index, then the statements. Of entries with one name, the first is the best match."""
     for entries in (_subjects(), _errors(), _rows(), _names(), *map(_cards, _ORDER)):
         yield from entries
     for document in DOCUMENTS:
