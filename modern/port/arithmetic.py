@@ -1,5 +1,4 @@
-"""The operations that Butler's procedure needs from an arithmetic: + - * of vectors, signs, square roots, exact
-text.
+"""The operations that Butler's procedure needs from an arithmetic, such as + - * of vectors, signs and square roots.
 
 A vector is a numpy array of floats or of Python objects. The formulas below use the operators of vectors, so that the
 same code of the procedure serves every arithmetic. A quantity has a *degree*, the number of coordinates that are
@@ -40,10 +39,13 @@ class Arithmetic(ABC):
 
     @abstractmethod
     def number(self, value: Exact, minus: bool = False) -> Scalar:
-        """Convert a coordinate; ``minus`` marks a zero with a minus sign.  Raise RangeError if it is too large."""
+        """Convert a coordinate to this arithmetic; ``minus`` marks minus zero.  Raise RangeError if it is too large."""
 
     def tolerance(self, size: Fraction, degree: int) -> Scalar:
-        """Convert a tolerance for quantities of this degree.  Raise RangeError if it is too large."""
+        """Convert the tolerance ``size`` to a number that can be compared with quantities of this degree.
+
+        The module's docstring defines the degree of a quantity.  Raise RangeError if the tolerance is too large.
+        """
         return self.number(size)
 
     @cached_property
@@ -68,11 +70,11 @@ class Arithmetic(ABC):
 
     @abstractmethod
     def exact(self, value: Scalar, degree: int) -> Exact:
-        """Return the exact value of a quantity of this degree, which determines the scale of scaled numbers."""
+        """Return the exact value of a number of this arithmetic that is a quantity of this degree (see the module)."""
 
     @abstractmethod
     def text(self, value: Scalar, degree: int) -> str:
-        """Return a quantity of this degree as exact text.  A minus zero is written ``-0``."""
+        """Return the exact value of a quantity of this degree as text.  A minus zero is written ``-0``."""
 
     def exacts(self, values: Vector, degree: int) -> list[Exact]:
         return [self.exact(value, degree) for value in values]
@@ -107,7 +109,7 @@ class Arithmetic(ABC):
         return np.argsort(values, kind="stable")[::-1]
 
     def last_largest_square(self, values: Vector) -> int:
-        """Return the index of the value with the largest square, or the last such index if several are equal."""
+        """Return the index of the value whose square is largest, or the last of several such indices."""
         return self.last_largest(values * values)
 
     def all_squares_zero(self, values: Vector) -> bool:

@@ -64,7 +64,7 @@ def _in_range(arithmetic: FloatArithmetic, points: PointTable, slack: Slack | No
     """Return True if no number of the procedure can overflow, which compiled code, unlike numpy, would not report.
 
     The largest numbers are squares of a plane's coefficients, at most 36 M**4 for coordinates up to M. A plane's value
-    at a point is at most 24 M**3. The slack is e, the same for all equations, times a coefficient.
+    at a point is at most 24 M**3. The tolerance of an equation is e, or e times one of its coefficients.
     """
     limit = float(np.finfo(arithmetic.dtype).max)
     largest = max(1.0, float(abs(points.coordinates).max()))

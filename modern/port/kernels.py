@@ -1,9 +1,10 @@
 """The loop of program 3, which adds vertices to the first hull H_1, compiled by numba for floating-point numbers.
 
 The steps, decisions and numbers are those of :mod:`modern.port.growth` and :mod:`modern.port.polyhedron`, and the
-formulas are the same functions. Those modules run the exceptional stages: a stage that ends without a hull, that for
-the first time needs the correction of a pair of planes or of the inside point C, or whose new vertex is already a
-vertex. For such a stage the kernel returns UNUSUAL and changes only the number of the equation to check.
+formulas are the same functions. A stage is the addition of one vertex. These two modules run the exceptional stages: a
+stage that ends without a hull, a stage that is the first to need one of two corrections of the listing (for pairs of
+equal planes, and for planes through the inside point C), and a stage whose new vertex is already a vertex. For such a
+stage the kernel returns UNUSUAL and changes only the number of the equation to check.
 """
 
 from typing import Any
@@ -97,7 +98,7 @@ def count_above(coordinates: NDArray[Any], start: int, end: int, plane_equation:
 
 
 def farthest_outside(coordinates: NDArray[Any], count: int, plane_equation: Any, e: Any) -> int:
-    """Return the index of the point farthest outside a plane, the last of several, or -1 if no point is outside."""
+    """Return the index of the point farthest outside a plane (of equally far ones the last), or -1 if none is."""
     # A value within the slack counts as zero. The difference computed here is a zero of the number type of the values.
     largest = e if e > 0 else e - e
     index = -1
@@ -249,7 +250,7 @@ def doubles(defining: NDArray[np.int64], first: int, last: int, scratch: Any) ->
 
 
 def takes_last_pair(partner: NDArray[np.int64], count: int) -> bool:
-    """Return True if the listing would fail here: a deleted pair of equal planes leaves at most one plane after it."""
+    """Return True if the listing would fail here: at most one new plane follows a deleted pair of equal planes."""
     remaining = count
     for k in range(count):
         if partner[k] < 0:

@@ -48,7 +48,7 @@ def direction(arithmetic: Arithmetic, p: Point, q: Point) -> int:
 
 
 def line_equations(p: Point, q: Point, perpendicular: int, zero: Scalar) -> tuple[Four, Four]:
-    """Return two planes A x + B y + C z + D = 0 that intersect in the line through two points (statement 113 on)."""
+    """Return two planes A x + B y + C z + D = 0 that intersect in the line through two points (statements from 113)."""
     equations = []
     for i, j in _PAIRS[perpendicular]:
         a, b, c = line(p[i], p[j], q[i], q[j], p[i], p[j])
@@ -102,8 +102,9 @@ def all_within(arithmetic: Arithmetic, equation: tuple[Scalar, ...], values: Vec
 def open_hull(arithmetic: Arithmetic, points: PointTable, slack: Slack | None, text: bool = False) -> Opening:
     """Run program 1 on distinct points, and reorder them so that the points of the first hull come first.
 
-    The fourth point is the one at which the equation of the plane has the largest square, as in the listing, or if
-    ``text`` is true the largest value, as in the text of the thesis (p. 29).
+    The fourth point is the one at which the value of the plane's equation is farthest from zero (has the largest
+    square), as in the listing. If ``text`` is true, it is the one at which the value is largest, as in the text of the
+    thesis (p. 29).
     """
     count = len(points)
     zero = arithmetic.number(0)

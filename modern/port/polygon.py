@@ -95,8 +95,7 @@ class Polygon:
 def strike_between(
     arithmetic: Arithmetic, table: Equations, points: PointTable, progress: Progress
 ) -> tuple[NDArray[np.int64], list[int]]:
-    """Remove points that lie between two others on a side of the polygon, and repeated equations (statements 144 to
-    169).
+    """Remove points between two others on a side of the polygon, and repeated equations (statements 144 to 169).
 
     Return the end points of each remaining equation, and the deleted points in the order of their discovery. Raise
     Stopped if the procedure cannot continue.
@@ -169,7 +168,7 @@ def middle(arithmetic: Arithmetic, points: PointTable, three: tuple[int, int, in
 
 
 def lowered(ends: NDArray[np.int64], not_vertices: Sequence[int]) -> list[int]:
-    """Return the numbers of the vertices at the ends of the lines, where only vertices are counted."""
+    """Return the number of the vertex at each end of each line; only the vertices are numbered."""
     return [end - sum(g < end for g in set(not_vertices)) for end in ends.ravel().tolist()]
 
 

@@ -83,7 +83,7 @@ class Slack:
 
 
 def snapped(arithmetic: Arithmetic, values: Vector, slack: Vector | None) -> Vector:
-    """Return the values, but zero for each value from -slack to +slack."""
+    """Return the values, with each value from -slack to +slack replaced by zero."""
     if slack is None:
         return values
     return np.where(arithmetic.within(values, slack), arithmetic.filled([arithmetic.number(0)])[0], values)
@@ -189,10 +189,10 @@ class Equations:
 def turned(
     arithmetic: Arithmetic, coefficients: Vector, centre: tuple[Scalar, ...] | None
 ) -> tuple[Vector, NDArray[np.bool_]]:
-    """Return the equations, with the sign of those changed that are positive at the inside point C.
+    """Return the equations. Those whose value at the inside point C is positive are multiplied by -1.
 
-    Also return a mask of the equations that are zero at C.
-    ``centre`` is None if the origin was moved to C, so that the constant term is the value at C (thesis p. 118).
+    Also return a mask of the equations whose value at C is zero. ``centre`` is None if the origin was moved to C, so
+    that the constant term is the value at C (thesis p. 118).
     """
     values = coefficients[-1] if centre is None else at(tuple(coefficients), centre)
     signs = arithmetic.sign(values)

@@ -126,7 +126,7 @@ class IntermediateDeck:
     """The cards that program 1 punches as input for program 2 or 3.
 
     ``planes`` has equations, each with the numbers of the points that define it.  ``count`` has N and, for coplanar
-    points, the projection KPROJ.
+    points, KPROJ, the number of the coordinate that the projection drops.
     """
 
     planes: tuple[tuple[Point, tuple[int, ...]], ...]
@@ -145,7 +145,7 @@ def read_intermediate(cards: Sequence[str]) -> IntermediateDeck | None:
 
 
 def planes_hold(deck: IntermediateDeck) -> bool:
-    """Return True if every plane equation holds at the points named on its card, or, without names, at all points."""
+    """Return True if each plane's equation holds at the points named on its card (at all points if none is named)."""
     unprojected = _unprojected(deck)
     for plane, named in deck.planes:
         points = [unprojected[k - 1] for k in named if 1 <= k <= len(unprojected)] if named else unprojected

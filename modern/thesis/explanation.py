@@ -53,8 +53,8 @@ def explanation(cause: Cause, arithmetic: str = "truncating") -> tuple[str, str,
 def first_disagreement(run: HullRun, options: Options) -> str:
     """Return a sentence on the first branch of a run, with these options, that exact arithmetic takes differently.
 
-    In the exact run, the cards between the programs also hold all digits.  If that run cannot continue, for example
-    because it divides by zero, the sentence gives the reason.
+    In the exact run, the cards that pass from one program to the next also hold all digits of each number.  If that run
+    cannot continue, for example because it divides by zero, the sentence gives the reason.
     """
     exact = replace(options, numbers=numbers("exact"), uncut=True)
     deck = run.steps[0].deck

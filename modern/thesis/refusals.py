@@ -3,7 +3,7 @@
 A program types DATA NOT ACCEPTABLE if a point that defines a plane or line does not satisfy it exactly (thesis p. 117;
 statement 126 of program 2, 119 of program 3), and ERROR IN PROGRAM if it reaches a state that should be impossible
 (statements 104, 112, 133).  ``fortran_src/KNOWN-FAULTS.md`` describes the known causes; :attr:`Cause.fault` is the
-number there.
+number of a fault in that file.
 """
 
 from collections.abc import Callable
@@ -38,7 +38,7 @@ class Cause:
     ``message`` is the refusal that the program typed, or empty, and ``decision`` is the last IF before it. ``fault`` is
     the number of a known fault that explains the refusal, or 0. ``equation`` is the number of the equation concerned,
     or 0. If a point that defines the equation does not satisfy it, ``point`` has its coordinates, and ``value`` is the
-    value of the equation there.
+    value of the equation at this point.
     """
 
     program: int

@@ -31,7 +31,7 @@ class Corner:
 
 @dataclass(frozen=True, slots=True)
 class Preprocessing:
-    """The points that a rule deleted before the projections, and all inside corners."""
+    """The points that a rule deleted before the projections, and all inside corners (reentrant edges)."""
 
     rule: Rule
     inside: tuple[Corner, ...]
@@ -59,11 +59,13 @@ def vectors(points: Sequence[IntPoint], surfaces: Sequence[Surface], line: Line)
 def preprocess(points: Sequence[IntPoint], surfaces: Sequence[Surface], rule: Rule) -> Preprocessing:
     """Return the points to delete before the projections, chosen by a rule.
 
-    ``any`` deletes each point on at least one inside corner. This is correct for well behaved objects only (Fig. 15).
-    ``two`` deletes each point on at least two inside corners and at most one outside corner (Fig. 16, 1). This is
-    correct for every object, because a vertex of the hull is on at least three outside corners. ``concave`` deletes
-    each point on an inside corner that is a concave point of a surface (Fig. 16, 2). This is correct for every object
-    too, because the angle of a surface at a vertex of the hull is less than 180 degrees.
+    An inside corner is a reentrant edge of the polyhedron, an outside corner an edge at which the polyhedron is convex.
+    ``any`` deletes each point on at least one inside corner. This is correct only for objects that the paper calls well
+    behaved (Fig. 15), which have at most three planes at each point. ``two`` deletes each point on at least two inside
+    corners and at most one outside corner (Fig. 16, 1). This is correct for every object, because a vertex of the hull
+    is on at least three outside corners. ``concave`` deletes each point on an inside corner that is a concave point of
+    a surface (Fig. 16, 2). This is correct for every object too, because the angle of a surface at a vertex of the hull
+    is less than 180 degrees.
 
     Raise MapError if the surfaces do not form a closed polyhedron, and ValueError for an unknown rule.
     """

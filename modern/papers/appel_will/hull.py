@@ -23,13 +23,13 @@ class Method:
     ``printed`` names steps of the appendix that are wrong or unclear in the print. By default all are corrected, which
     reproduces all printed loops and finds all faces of any hull. A loop begins with two lines L1 and L2.
 
-    ``step3``: take the first admissible L2. Otherwise prefer an L2 whose direction has a positive dot product with that
-    of L1, as the main text requires of two lines that define a plane.
+    ``step3``: take the first admissible L2. The corrected step prefers an L2 whose direction has a positive dot product
+    with that of L1, as the main text requires of two lines that define a plane.
     ``step5``, ``step7``: "go back to step 2", so that an L1 whose first L2 is rejected is skipped. The correct target
     is step 3.
     ``step9``: exclude only L1 and L2 from the search for the next line, not the other lines already on the loop.
-    ``step10``: "start another loop at step 1", so that every loop begins with all counts at 0. The correct target is
-    step 2.
+    ``step10``: "start another loop at step 1", so that every loop begins as if no line had been used. The correct
+    target is step 2.
     """
 
     star: StarTest = in_one_pass
@@ -59,9 +59,9 @@ class Assembled:
     ``points`` are the input coordinates multiplied by ``scale``, as integers. ``duplicates`` has pairs of a point and
     the first point that is equal to it. ``preprocessing`` has the points deleted at inside corners, if a rule was
     chosen, and ``deleted`` the points found between two others in the projections. ``edges`` is the convex edge list
-    and
-    ``table`` the loop table. A polygon has one loop, which uses every edge once; a segment or a point has no loop.
-    ``surfaces`` is the topological map: the points of each loop. ``dimension`` is that of the point set, from 0 to 3.
+    (the edges of the hull), and ``table`` the loop table. A polygon has one loop, which uses every edge once; a segment
+    or a point has no loop. ``surfaces`` is the topological map: the points of each loop. ``dimension`` is that of the
+    point set, from 0 to 3.
     """
 
     points: tuple[IntPoint, ...]

@@ -20,8 +20,8 @@ class Loop:
     """The border of a face as a list of edges, and the state of the search after the loop was closed.
 
     ``entries`` are the paper's LUP(N, 1), LUP(N, 2) and so on for loop N. ``kind`` is the type of the intersection of
-    the first two edges (Fig. 20). ``start`` and ``match`` are the points SP and MP of step 8. ``uses`` are the numbers
-    of uses IUC(L) of each edge L after the loop.
+    the first two edges (Fig. 20). ``start`` and ``match`` are the points SP and MP of step 8. ``uses`` has, for each
+    edge L, the count IUC(L) of its uses after this loop.
     """
 
     entries: tuple[int, ...]
@@ -54,9 +54,9 @@ class Intersection:
     21).
 
     ``start`` and ``match`` are the other ends of L1 and L2. In type 1 both lines begin at the common point. In type 2
-    L1 begins and L2 ends there, in type 3 L1 ends and L2 begins there, and in type 4 both end there. The drawings of
-    Figs. 20 and 21 are lost. Type 1 and its signs are certain from the text of Figs. 21 and 22. The signs of the other
-    types follow from the sense of the loop, and the numbers of these types are this project's choice.
+    L1 begins and L2 ends at this point, in type 3 L1 ends and L2 begins at it, and in type 4 both end at it. The
+    drawings of Figs. 20 and 21 are lost. Type 1 and its signs are certain from the text of Figs. 21 and 22. The signs
+    of the other types follow from the sense of the loop, and the numbers of these types are this project's choice.
     """
 
     first: int
@@ -163,7 +163,7 @@ def _seconds(table: _Table, first: int) -> Iterator[Intersection]:
 
 
 def _is_convex_plane(table: _Table, crossing: Intersection) -> bool:
-    """Return True if no point is on one of the sides of the plane through two edges (steps 6 and 7)."""
+    """Return True if the plane through two edges has no points on one of its two sides (steps 6 and 7)."""
     normal, origin = _plane(table.points, crossing)
     heights = (dot(normal, minus(table.points[p], origin)) for p in table.vertices)
     sides = {(height > 0) - (height < 0) for height in heights}

@@ -158,9 +158,8 @@ def assembled(points: Sequence[IntPoint], starts: Numbers, ends: Numbers, sizes:
     """Return the cell list of faces given as cycles of signed edges.
 
     ``starts`` and ``ends`` have the vertex numbers, from 1, of each edge. ``sizes`` has the number of edges of each
-    face.
-    ``signed`` has the edge numbers of all faces in a row, with the signs of ``Face.pairs``. In the result each face
-    begins with its vertex of lowest number.
+    face. ``signed`` has the edge numbers of all faces one after another, with the signs of ``Face.pairs``. In the
+    result each face begins with its vertex of lowest number.
     """
     edge = abs(signed) - 1
     vertex = np.where(signed > 0, starts[edge], ends[edge])
@@ -299,17 +298,17 @@ def _listed(items: Iterable[object]) -> str:
 
 
 def triangulation_size(triangles: int) -> Fraction:
-    """Return the number of integers of a triangulation by formula (5), for half as many vertices as triangles."""
+    """Return the number of integers that a triangulation with half as many vertices as triangles stores (formula 5)."""
     return (Fraction(3, 2) + 3) * triangles
 
 
 def cell_list_size(vertices: int, faces: int) -> int:
-    """Return the number of integers of a short cell list by formula (6), which assumes five vertices for each face."""
+    """Return the number of integers that a short cell list stores: formula (6), with five vertices for each face."""
     return 3 * vertices + 5 * faces
 
 
 def economical_size(cells: CellList) -> int:
-    """Return the exact number of integers of a short cell list: three per vertex, and the vertices of each face."""
+    """Return the exact number of integers that a short cell list stores: three per vertex, one per corner of a face."""
     return 3 * len(cells.vertices) + sum(len(face.pairs) for face in cells.faces)
 
 

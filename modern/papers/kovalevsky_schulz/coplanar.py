@@ -1,8 +1,8 @@
-"""Two ways to treat a new point in the plane of a face that the paper tried and abandoned (section 2, Figs. 7 and 8).
+"""Two abandoned ways of the paper to treat a new point that lies in the plane of a face (section 2, Figs. 7 and 8).
 
 Let P be a new point in the plane of a face. *Quadrangles* (Fig. 7): the face counts as invisible. The edges between
-this face and visible faces, together with P, form one new coplanar face instead of a triangle for each edge. The new
-face is merged with the old one. *Extended* (Fig. 8): the face itself is extended to P by a hull in its plane.
+this face and visible faces, together with P, form one new face in the same plane, instead of a triangle for each edge.
+The new face is merged with the old one. *Extended* (Fig. 8): the face itself is extended to P by a hull in its plane.
 
 There is one face for each plane, stored as the cycle of its vertices without the vertices in line with two others. All
 arithmetic is in integers.

@@ -34,8 +34,8 @@ def places(volume: Volume, of: Of = VERTICES) -> Voxels:
     """Return the grid points whose hull is computed, voxel centres or corners, as an array of truth values.
 
     For ``centres`` the grid points are the voxels themselves (the paper's Int(M)), for ``vertices`` their corners
-    (Cl(M)). Voxel (x, y, z) has the eight corners from (x, y, z) to (x + 1, y + 1, z + 1). A corner thus has the
-    coordinates of the voxel that is farthest from the origin among the eight voxels around it (Fig. 3, Definition SG).
+    (Cl(M)). Voxel (x, y, z) has the eight corners from (x, y, z) to (x + 1, y + 1, z + 1). The coordinates of a corner
+    thus equal those of the voxel with the largest x, y and z among the eight voxels around it (Fig. 3, Definition SG).
 
     Raise VolumeError for a volume of two dimensions.
     """

@@ -66,10 +66,10 @@ def hull_cells(points: Points) -> CellList | Flat:
     The result is ``Flat`` if all points lie in one plane. The faces are those of the exact hull, sorted by their cycles
     of vertices. Each cycle begins with its lowest number.
 
-    For points in raster order, the paper's procedure with coplanar faces visible finds the same vertices in the same
-    order and the same faces. Each inserted point is later in raster order than the points before, and a point in line
-    or in a plane with later points disappears, because all faces at it are visible. Only the numbers of the faces and
-    edges differ.
+    For points in raster order, the paper's procedure finds the same vertices in the same order and the same faces, if a
+    face whose plane contains the new point counts as visible. Each inserted point is later in raster order than the
+    points before, and a point in line or in a plane with later points disappears, because all faces at it are visible.
+    Only the numbers of the faces and edges differ.
     """
     # Only the first and the last point of a column (the points with equal x and y) can be vertices of the hull.
     x, y, z = points[np.lexsort(points.T[::-1])].T
@@ -190,9 +190,10 @@ def voxel_hull(
 
     ``volume`` may be an array of truth values indexed [x, y, z]. ``of`` is ``centres`` or ``vertices``, for the hull of
     the voxels' centres or corners. ``neighbours`` is 6 or 26, the number of neighbours in the test for local corners.
-    ``coplanar`` is ``visible`` (the default) or ``invisible``, see ``convex_polyhedron``. ``order`` is ``raster`` as in
-    the paper, or ``shuffled``, a reproducible random order, which is faster. If only ``coplanar`` is set, the order is
-    ``raster``. If neither ``coplanar`` nor ``order`` is set, no points are inserted and there are no triangles.
+    ``coplanar`` is ``visible`` (the default) or ``invisible``: how a face counts whose plane contains the new point.
+    ``order`` is ``raster`` as in the paper, or ``shuffled``, a reproducible random order, which is faster. If only
+    ``coplanar`` is set, the order is ``raster``. If neither ``coplanar`` nor ``order`` is set, no points are inserted
+    and there are no triangles.
 
     The hull does not depend on ``neighbours``, ``coplanar`` and ``order``. But the number of triangles depends on them,
     and so do the vertices of the cell list that lie in line with two others. Raise VolumeError for a volume of two

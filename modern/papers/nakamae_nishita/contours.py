@@ -65,7 +65,7 @@ CROSSING = -4
 
 
 def values(lines: Sequence[Line], points: Sequence[tuple[int, int, int, int]]) -> Values | None:
-    """Return the values of formula (1) for each line (rows) and each point (columns).
+    """Return the values of formula (1), a line's equation, for each line (rows) at each point (columns).
 
     A value is positive if the point is on the inner side of the line. Return None if no point is on the inner side of
     one of the lines. The contours then do not overlap (property 1).
@@ -123,10 +123,10 @@ class Tables:
 
 
 def tables(of_near: Values, of_far: Values) -> Tables:
-    """Return the tables PL and LP of two contours V and V', which have the signs of the values of formula (1).
+    """Return the tables PL and LP of two contours V and V': the signs of their lines' equations at their vertices.
 
-    ``of_near`` has the values of the segments of V at the vertices of V', and ``of_far`` the values of the segments of
-    V' at the vertices of V.
+    ``of_near`` has the values of formula (1), the equation of a line, for the segments of V at the vertices of V', and
+    ``of_far`` those for the segments of V' at the vertices of V.
     """
     signs = [[(f > 0) - (f < 0) for f in column] for column in of_near]
     return Tables(tuple(zip(*signs, strict=True)), tuple(tuple((f > 0) - (f < 0) for f in row) for row in of_far))

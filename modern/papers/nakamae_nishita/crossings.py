@@ -20,8 +20,8 @@ Mark = tuple[Fraction, int]
 class Passage:
     """The course of a segment behind one contour.
 
-    ``marks`` has the points at which the segment enters or leaves the contour, with the paper's indices I_0.
-    ``enclosed`` is True if the whole segment lies within the contour, so that there is no such point.
+    ``marks`` has the points at which the segment enters or leaves the contour, each as its distance s and its index,
+    the paper's I_0. ``enclosed`` is True if the whole segment lies within the contour, so that there is no such point.
     """
 
     marks: tuple[Mark, ...]
@@ -29,9 +29,9 @@ class Passage:
 
     @property
     def order(self) -> int:
-        """The order of invisibility of the segment's first end by its intersections with this contour.
+        """This contour's part of the order of invisibility (the number of contours that hide the segment's first end).
 
-        The order is 1 if the segment begins behind the contour and leaves it (index -1), otherwise 0.
+        It is 1 if the segment begins behind the contour and leaves it (index -1), otherwise 0.
         """
         return sum(index == -1 for _, index in self.marks)
 
@@ -43,9 +43,9 @@ ENCLOSED = Passage((), True)
 def clipped(values: Values, first: int, last: int) -> Passage:
     """Return the passage of a segment behind a contour. It is correct also if the segment meets the contour's vertices.
 
-    ``values`` has formula (1) of each segment of the contour (rows) at all points (columns). ``first`` and ``last`` are
-    the columns of the segment's ends. The segment is clipped to the inner side of each line of the contour. Therefore
-    only a part of positive length strictly within the contour is hidden.
+    ``values`` has the values of formula (1), a line's equation, for each segment of the contour (rows) at all points
+    (columns). ``first`` and ``last`` are the columns of the segment's ends. The segment is clipped to the inner side of
+    each line of the contour. Therefore only a part of positive length strictly within the contour is hidden.
     """
     # The hidden part is from enter_up / enter_down to leave_up / leave_down, as fractions of the segment. Formula (1)
     # is linear along the segment, from a at P_A to b at P_B. The greatest entry and the least exit over all lines bound

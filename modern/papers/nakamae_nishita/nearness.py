@@ -23,9 +23,9 @@ UNDECIDED: Final = "undecided"
 def by_formulas(v: Solid, w: Solid, pair: Tables, of_v: Values, of_w: Values) -> tuple[int, By]:
     """Decide by the paper's formulas (4) and (5) which of the polyhedra V (``v``) and V' (``w``) is nearer.
 
-    Return 1 if V is nearer, -1 if V' is nearer or 0 if undecided, and the formula that decided. ``of_v`` has formula
-    (1) of the contour segments of V at the points of V', and ``of_w`` that of the contour segments of V' at the points
-    of V.
+    Return 1 if V is nearer, -1 if V' is nearer or 0 if undecided, and the formula that decided. ``of_v`` has the values
+    of formula (1), a line's equation, for the contour segments of V at the points of V', and ``of_w`` those for the
+    contour segments of V' at the points of V.
     """
     # Formula (4): at an intersection of the contours compare the depths of the two points that have it as their image.
     for i, j in pair.crossings():
@@ -49,7 +49,8 @@ def by_formulas(v: Solid, w: Solid, pair: Tables, of_v: Values, of_w: Values) ->
 def crossing(solid: Solid, order: int, values: list[int]) -> Homogeneous:
     """Return the point of a contour segment at which the given values, linear along the segment, are zero.
 
-    ``values`` has formula (1) of a line at all points of the solid. ``order`` is the index of the contour segment.
+    ``values`` has the value of a line's equation, formula (1), at each point of the solid. ``order`` is the index of
+    the contour segment.
     """
     after = (order + 1) % len(solid.contour)
     p, q = solid.images[order], solid.images[after]

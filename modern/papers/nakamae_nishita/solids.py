@@ -37,10 +37,12 @@ class Segment:
 class Solid:
     """A polyhedron and its projection.
 
-    ``points`` are the images of the vertices and then of the corners of figures. ``signs`` has 1 for each front face.
-    ``contour`` lists the indices of the contour's vertices, clockwise, and ``lines`` the coefficients of formula (1) of
-    the contour's segments. ``planes`` has the coefficients of formula (5) of each face, positive outside. ``used``
-    lists the indices of all points of segments, the points of the contour first, and ``images`` has these points.
+    ``points`` are the images of the vertices and then of the corners of figures. ``signs`` has 1 for each front face,
+    -1 for each back face and 0 for each face that is seen edge-on. ``contour`` lists the indices of the contour's
+    vertices, clockwise, and ``lines`` the coefficients of formula (1), a line's equation, for each segment of the
+    contour. ``planes`` has for each face the coefficients of formula (5), its plane's equation, whose value is positive
+    outside. ``used`` lists the indices of the ends of all segments, beginning with the points of the contour, and
+    ``images`` has the projected points with these indices.
     """
 
     number: int

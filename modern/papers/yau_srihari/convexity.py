@@ -2,8 +2,8 @@
 
 A digital region is a set of voxels, given as an array of truth values. Definition 3.2.2 requires a voxel of the region
 at the midpoint of any two of its voxels. Definition 3.2.3 requires that the half-cell expansion of the region is the
-image of a convex solid. Kim and Rosenfeld's test for this property examines the semidigital points on the faces of the
-hull.
+image of a convex solid. Kim and Rosenfeld's test for this property examines the semidigital points (points with at
+least one integer coordinate) on the faces of the hull.
 """
 
 import math
@@ -105,7 +105,7 @@ def semidigital_segments(hull: ExactHull) -> Iterator[tuple[Place, Place]]:
 
 
 def _boundary_points(polygon: list[Place], axis: int, at: Fraction) -> Iterator[Place]:
-    """Yield the vertices of a polygon in the plane x[axis] = at and the points where its sides cross the plane."""
+    """Yield the vertices of a polygon in the plane x[axis] = at, and the points where its sides cross this plane."""
     for p, q in zip(polygon, (*polygon[1:], polygon[0]), strict=True):
         if p[axis] == at:
             yield p

@@ -1,9 +1,9 @@
 """Compute the convex envelope of a floor: the lower side of the hull of the lowest voxels of all columns (section 5).
 
 The envelope consists of faces, which are found one after another. The faces are computed from the reduced set A of
-section 4.6.1, and lie above the plane hull H(A) of the positions (x, y) of A. A and H(A) are found by lower chains (the
-lower sides of plane hulls). The paper computes such chains by Sklansky's scan, which follows a polygon once and steps
-back whenever the polygon turns the wrong way.
+section 4.6.1, the points that can be vertices of the envelope. They lie above H(A), the plane hull of the positions
+(x, y) of these points. A and H(A) are found by lower chains (the lower sides of plane hulls). The paper computes such
+chains by Sklansky's scan, which follows a polygon once and steps back whenever the polygon turns the wrong way.
 """
 
 import math
@@ -63,7 +63,7 @@ def chain_above(start: Place, end: Place, points: Grid) -> list[Point]:
 
 
 def over_edges(corners: list[Place], points: Grid, whole: bool) -> list[tuple[Point, Point]]:
-    """Return the envelope's edges above the border of the plane hull H(A), counterclockwise.
+    """Return the envelope's edges above the border of H(A), the plane hull of the columns' positions, counterclockwise.
 
     These are all edges of the lower chains above the border or, with ``whole``, a single edge above each edge of H(A),
     as the paper prints.
@@ -128,10 +128,11 @@ class Step:
 class Envelope:
     """The convex envelope of a floor: its faces, or a chain of vertices if all columns are in one line.
 
-    ``reduced`` has the points of the reduced set A, and ``outline`` the vertices of H(A), counterclockwise. If all
-    columns are in one line, there are no ``faces``, and ``chain`` has the envelope's vertices. ``tree`` is the floor
-    tree with the heights of the envelope. ``construction`` computes ``steps``. ``fault`` is the reason why the
-    construction stopped early, or "". Only statements applied as printed can stop it.
+    ``reduced`` has the points that can be vertices (the reduced set A), and ``outline`` the vertices of H(A), the plane
+    hull of their positions, counterclockwise. If all columns are in one line, there are no ``faces``, and ``chain`` has
+    the envelope's vertices. ``tree`` is the floor tree with the heights of the envelope. The function ``construction``
+    computes ``steps``. ``fault`` is the reason why the construction stopped early, or "". Only statements applied as
+    printed can stop it.
     """
 
     reduced: tuple[Point, ...]
@@ -171,7 +172,7 @@ def envelope(floor: Quadtree, printed: Printed) -> Envelope:
 
 
 def _queue(edges: Iterable[Edge]) -> dict[Edge, Normal]:
-    """Return the first queue: the edges above the border of H(A), reversed, each with the normal of an upright face."""
+    """Return the first queue: the edges above the border of the plane hull, reversed, with normals of upright faces."""
     return {(end, start): normal_of(start, end, (start[0], start[1], start[2] + 1)) for start, end in edges}
 
 
@@ -258,7 +259,7 @@ def _update_queue(face: Face, edge: Edge, queue: dict[Edge, Normal]) -> tuple[tu
 
 
 def _entered(tree: Quadtree, faces: Iterable[Face]) -> Quadtree:
-    """Return the tree with the heights of all faces. The columns of faces are marked as done, except vertices."""
+    """Return the tree with the heights of all faces. Mark their columns as done, except those of vertices."""
     # From above the vertices run clockwise, and the plane's coefficient of z must be positive.
     reversed_faces = []
     for face in faces:

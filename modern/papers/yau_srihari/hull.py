@@ -62,10 +62,11 @@ class OctreeHull:
     """The digital hull of a voxel solid, and all intermediate results of the paper's algorithm.
 
     ``side`` is the side of the cube that the octrees divide. ``solid`` and ``hull`` are the octrees of the solid and
-    the hull. ``lowest`` and ``highest`` are the quadtrees of the floor and the ceiling. ``lower`` is the convex
-    envelope of the floor, and ``upper`` the convex envelope of the ceiling with negated heights. ``filled`` has the
-    voxels of the hull in the shape of the volume. ``components`` is the number of 6-connected components of the volume.
-    If it is 1, section 3.3 takes the digital points of the Euclidean hull for the digital convex hull.
+    the hull. ``lowest`` is the quadtree of the floor (the lowest voxel of each column), and ``highest`` that of the
+    ceiling (the highest voxel of each column). ``lower`` is the convex envelope of the floor, and ``upper`` the convex
+    envelope of the ceiling with negated heights. ``filled`` has the voxels of the hull in the shape of the volume.
+    ``components`` is the number of 6-connected components of the volume. If it is 1, section 3.3 takes the digital
+    points of the Euclidean hull for the digital convex hull.
     """
 
     side: int

@@ -1,8 +1,9 @@
 """Octrees of voxel solids as arrays of codes: linear octrees (section 5; Jackins and Tanimoto 1980).
 
 A linear octree stores only the full leaves, each as a code and a level, sorted by code. All other nodes can be derived
-from the full leaves, because every divided node has a full leaf below it. The code of a leaf is the number of its
-lowest voxel if the voxels of the cube are counted son by son. Three bits of the code select the son at each level.
+from the full leaves, because every divided node has a full leaf below it. The code of a leaf is the code of its first
+voxel. The codes of voxels count the voxels of the cube from 0, son by son. Three bits of the code select the son at
+each level.
 
 As in section 5, each quadrant i of the square (x, y) belongs to two octants, sons of a node: son 2 i is the lower half
 of the node's cube over the quadrant, and son 2 i + 1 the upper half. Quadrant i is the half i mod 2 in x and the half
@@ -179,7 +180,7 @@ def _bits(numbers: Grid, count: int, old_distance: int, new_distance: int) -> Gr
 
 
 def _within(a: Octree, b: Octree, deeper: int) -> NDArray[np.bool_]:
-    """Return True for each leaf of ``a`` that lies in a leaf of ``b`` at least ``deeper`` levels above it."""
+    """Return a mask of the leaves of ``a`` that lie in a leaf of ``b`` whose level is at least ``deeper`` less."""
     if not len(b.codes):
         return np.zeros(len(a.codes), dtype=np.bool_)
     # The voxels of a leaf have consecutive codes, so only the last leaf of b whose code is not greater can contain it.

@@ -157,7 +157,7 @@ def bounds_by_level(tree: Quadtree) -> list[tuple[Grid, Grid]]:
 
 
 def graph_side(tree: Quadtree, above: bool) -> Octree:
-    """Return the octree of the voxels at and above a tree's heights if ``above``, otherwise at and below (section 5).
+    """Return the octree of the voxels at and above a tree's heights, or at and below if not ``above`` (section 5).
 
     The paper generates sons 2 i and 2 i + 1 of the octree from son i of the quadtree.
     """

@@ -1,7 +1,7 @@
 """Search a quadtree for the second face at an edge of the envelope (Theorem 2 and section 4.6.2).
 
 Angles are compared exactly. The angle between two integer normals p and q has a greater cosine if the number
-(p . q) |p . q| / (q . q) is greater, because p is the same in all comparisons.
+(p . q) |p . q| / (q . q) is greater, because p, the normal of the known face, is the same in all comparisons.
 
 ``Search`` follows the paper square by square, counts its steps and can apply statements as printed. ``Candidates``
 finds the same points in the same order by one pass over arrays of all points.
@@ -33,10 +33,10 @@ def normal_of(u: Point, v: Point, w: Point) -> Normal:
 class Search:
     """A search for the second face at the directed edge from ``start`` to ``end``, as the paper describes it.
 
-    ``normal`` is the outward normal of the edge's known face. ``best`` is the best score so far, and ``points`` are the
-    points with this score in the order of the search. ``sure`` is the paper's w, a score that at least one point is
-    known to reach. ``visited`` is the number of visited nodes, and ``angles`` the number of angles computed for points
-    and for corners of squares.
+    ``normal`` is the outward normal of the edge's known face. ``best`` is the best score (see :meth:`score`) of the
+    points examined so far, and ``points`` are the points with this score in the order of the search. ``sure`` is the
+    paper's w, a score that at least one point is known to reach. ``visited`` is the number of visited nodes, and
+    ``angles`` the number of angles computed for points and for corners of squares.
     """
 
     start: Point
@@ -75,7 +75,7 @@ class Search:
         return ex * (y - self.start[1]) < ey * (x - self.start[0])
 
     def _visit(self, levels: list[tuple[Grid, Grid]], up: int, i: int, j: int) -> None:
-        """Search a square of the tree, and its quarters unless the bounds exclude them."""
+        """Search a square of the tree, and its quarters unless the bounds of their scores exclude them."""
         self.visited += 1
         low, side = levels[up][0].item(i, j), 1 << up
         # Rule 1 of section 4.6.2: a square on the known side of the edge, or without points, is skipped.
