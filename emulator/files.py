@@ -1,8 +1,8 @@
 """Reading and writing of files.  Every failure is a ``FileError`` with a one-line message.
 
-All input files and results of the project pass through here.  Results are written atomically: the old file stays until
-the new one is complete.  The path ``-`` is standard input or output.  A pipe or device may never end, so it is read up
-to a limit that depends on the expected contents.
+All input files and results of the project pass through this module.  Results are written atomically: the old file stays
+until the new one is complete.  The path ``-`` is standard input or output.  A pipe or device may never end, so it is
+read up to a limit that depends on the expected contents.
 """
 
 import os
@@ -34,7 +34,8 @@ def source_name(path: str) -> str:
 def read_bytes(path: str, name: str = "", limit: int = TEXT_LIMIT) -> bytes:
     """Return the contents of a file, or of a pipe or device that delivers at most ``limit`` bytes.
 
-    ``name`` replaces the path in messages.  Raise FileError if the file cannot be read, or has more bytes.
+    ``name`` replaces the path in messages.  Raise FileError if the file cannot be read, or if
+    a pipe or device delivers more bytes.
     """
     if path == "-" and (sys.stdin is None or sys.stdin.closed):
         raise FileError("standard input is closed")
@@ -175,7 +176,7 @@ def writing_bytes(path: str, durable: bool = False) -> Iterator[BinaryIO]:
 
 @contextmanager
 def _writing(path: str, standard: Any, open_arguments: dict[str, str], durable: bool = False) -> Iterator[Any]:
-    """Implement :func:`writing`.  ``standard`` is standard output as text or bytes."""
+    """Implement :func:`writing`.  ``standard`` is standard output as a text or binary stream."""
     if path == "-":
         yield standard
         standard.flush()

@@ -118,7 +118,7 @@ def parse(deck: Deck) -> Parsed:
 
 
 def _data_warnings(deck: Deck, end: Card, data: Sequence[Card]) -> Iterator[Diagnostic]:
-    """Yield warnings about cards after END: those that are data, and the first control card among them."""
+    """Yield a warning about the data cards after END, and one about the first control card after END."""
     if data:
         message = f"cards {data[0].number} to {data[-1].number} follow END: they are data and are not compiled"
         yield Diagnostic(data[0].number, 0, message, warning=True, about="END")

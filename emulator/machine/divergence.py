@@ -202,7 +202,7 @@ def diverge(
 
 
 class JournaledRun:
-    """A run that records its decisions and stores in a journal."""
+    """A run with a journal of its decisions and of the values that it stores."""
 
     def __init__(
         self,

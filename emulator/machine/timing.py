@@ -185,9 +185,10 @@ def measure(program: Program, result: Result) -> Timing:
 def shares(program: Program, result: Result) -> tuple[Time, ...]:
     """Return the processor time of each statement of ``program.statements``.
 
-    The sum is the processor time of :func:`measure`.  Records and conversions of numbers are not counted for each
-    statement.  The total time for each kind of field is divided among the statements in proportion to the numbers in
-    their lists, and the total time for records in proportion to the executions of the statements.
+    The sum of these times is the processor time that :func:`measure` gives.  Records and conversions of numbers
+    are not counted for each statement.  The total time for each kind of field is divided among the statements in
+    proportion to the numbers in their lists, and the total time for records in proportion to the executions of the
+    statements.
     """
     times_of = [Time()] * len(program.statements)
     lists: dict[str, Tally[int]] = {}

@@ -9,7 +9,7 @@ To add a decimal arithmetic, for example one that keeps eight digits, rounds quo
    ``Profile("mine", rules_of(8, quotients=1))``.  For a family with any number of digits, such as ``mine:P``, add an
    entry to ``_FAMILIES`` in that module.  The programs and the port then accept the name, and so does the compiled
    engine up to nine digits.
-2. A rule that ``Rules`` cannot express is a new field of it and a new argument of ``rules_of``.  Implement it in
+2. For a rule that ``Rules`` cannot express, add a field to ``Rules`` and an argument to ``rules_of``.  Implement it in
    ``arithmetic.py`` (digits) or ``accumulator.py`` (zeros, signs, overflow), and nowhere else.
 3. Add the name to the help of ``--arithmetic`` in ``modern/cli/shared/arguments.py`` and to the tables in
    ``docs/reference/machine.md`` and ``docs/how-to/own-arithmetic.md``.

@@ -40,7 +40,7 @@ def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
 
 
 def subtract(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
-    """Return the accumulator (FAC) minus a number: the sum with the negated number, in which a zero keeps its sign."""
+    """Return the accumulator (FAC) minus a number: FAC plus the negated number, where a zero is not negated."""
     return add(ma, ea, -mb, eb, rules)
 
 

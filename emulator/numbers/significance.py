@@ -1,6 +1,6 @@
 """Estimates of the significant digits of a number from its values in several stochastic runs.
 
-Let m be the mean of N values, s their standard deviation (with N - 1) and r = s / abs(m).
+Let m be the mean of N values, s their standard deviation (with the divisor N - 1) and r = s / abs(m).
 
 - *Stott Parker*: the digits common to the runs, ``-log10(r)`` (D. S. Parker, Monte Carlo arithmetic, UCLA CSD-970002,
   1997).

@@ -62,13 +62,13 @@ def _commands_to_try(cause: Cause, request: Request) -> Iterator[tuple[str, str]
         first = "" if cause.program == 1 else f"hull1620 run program1 {deck} --punch program1.cards && "
         yield (
             f"{first}hull1620 diverge program{cause.program} {'program1.cards' if first else deck}",
-            "Find the first decision of the stopped program on which these digits and exact arithmetic disagree.",
+            "Find the first decision of the stopped program on which its arithmetic and exact arithmetic disagree.",
         )
     yield f"hull1620 export {deck} -o hull.off", "Write the exact hull of these points to a file for other programs."
 
 
 def _with_layer(request: Request, layer: str, arithmetic: str = "") -> str:
-    """Return the hull command of the request with one more layer, and with ``arithmetic`` if it is named."""
+    """Return the command ``hull1620 hull`` of the request with one more layer, and with ``arithmetic`` if given."""
     layers = ",".join(dict.fromkeys((layer, *request.layers)))
     name = arithmetic or request.arithmetic
     command = f"hull1620 hull {shlex.quote(request.deck)} --layers {layers} --core 60000"
