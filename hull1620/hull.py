@@ -61,7 +61,7 @@ class Hull:
     record : modern.geometry.hull.Hull
         All data of the hull as exact text.  The other attributes are derived from it.
     certificate : Certificate or None
-        The counts of the proof; None for a hull of ``convex_hull``.
+        The number of checks of each kind that proved the hull; None for a hull of ``convex_hull``.
     """
 
     record: Record

@@ -118,7 +118,7 @@ def exact_hull(points: Points, fast: bool | None = None) -> Hull:
     Returns
     -------
     Hull
-        Its ``certificate`` has the counts of the proof.
+        Its ``certificate`` has the number of checks of each kind that proved it.
 
     Raises
     ------
@@ -279,7 +279,7 @@ def load_program(name: str, layers: Sequence[str] = ()) -> Program:
 
 
 def reproduce(*names: str) -> bool:
-    """Compute the published results of the thesis and the later papers, and print how they compare.
+    """Compute the results that the thesis and the later papers print, and print a comparison with them.
 
     Parameters
     ----------

@@ -203,7 +203,7 @@ def _kind(hull: Assembled) -> str:
 
 
 def _compared(inputs: Sequence[Surface], hull: Assembled, joined: Joined | None) -> Fates:
-    """Return whether each surface of the object is kept, respecified or deleted in its hull."""
+    """Return whether the hull keeps, respecifies (bounds differently) or deletes each surface of the object."""
     if joined is None:
         return hull.fates(inputs)
     return fates_by_points(inputs, joined_points(hull, joined), joined_surfaces(hull, joined))

@@ -58,7 +58,7 @@ def folded(text: str) -> str:
 
 @cache
 def _pair_costs() -> Mapping[tuple[str, str], float]:
-    """Return the costs of pairs (character of the card, character of the transcription) that may be confused."""
+    """Return the costs of aligning pairs (character of a card, character of a transcription) that may be confused."""
     return {
         (p.lemma, p.witness): CONFUSABLE
         for p in table()

@@ -276,7 +276,7 @@ class _Page:
         self._at[line.id] = Line(line.id, text, line.page, (*line.rows, row.id))
 
     def _insert(self, row: Row, behind: Line, texts: Sequence[str], inserted: int) -> int:
-        """Insert lines of a row after the line ``behind``, and return the number of its inserted lines so far."""
+        """Insert lines of a row after the line ``behind``, and return how many lines the row has inserted so far."""
         if texts:
             new = [f"{row.id}.{inserted + k}" for k in range(1, len(texts) + 1)]
             at = self._order.index(behind.id) + 1

@@ -1,8 +1,9 @@
-"""Damage texts as the OCR damaged the listings, by the pairs of ``fortran_src/apparatus/confusables.toml``.
+"""Damage texts as the OCR damaged the listings: exchange characters that ``confusables.toml`` lists as misread.
 
-A pair has characters that the card has (the lemma) and characters that the OCR read instead (the witness).
-:func:`rates` returns how often the OCR did this in the listings: the number of places that rows of the layer ``ocr``
-correct, divided by the number of places with the lemma.  :func:`damaged` damages a text at such rates.
+``fortran_src/apparatus/confusables.toml`` has pairs: characters that the card has (the lemma), and characters that the
+OCR read instead (the witness).  :func:`rates` returns how often the OCR did this in the listings: the number of places
+that rows of the layer ``ocr`` correct, divided by the number of places with the lemma.  :func:`damaged` damages a text
+at such rates.
 """
 
 from collections.abc import Callable, Mapping, Sequence

@@ -1,6 +1,7 @@
 """Find the smallest edits of words and blanks, and the moves of words, that turn a witness reading into the lemma.
 
-:mod:`modern.edition.segments` turns each edit into a place of the text.  All indices refer to the old text.
+:mod:`modern.edition.segments` turns each edit into a place of the text.  All indices refer to the text before the
+edits.
 """
 
 import re

@@ -151,7 +151,7 @@ def _copy(source: Traversable, target: Path) -> None:
 def _applied(data: Path, readings: Sequence[Reading]) -> Iterator[Reading]:
     """Add a row to the apparatus in ``data`` for each changed card, and build the decks again.
 
-    Yield all readings; those with a new row have its id.
+    Yield all readings; a reading for which a row was added has the id of this row.
     """
     for reading in readings:
         if reading.outcome != "changed":

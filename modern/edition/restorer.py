@@ -9,8 +9,8 @@ exchange needs a ground:
 ``print``   with this reading the program reproduces more lines of its printed results than with every other reading.  A
             card that compiles and to which no other rule applies is emended only if all results are then reproduced.
 ``forced``  only this reading equals another card (a sibling) in which names are exchanged.  A card that compiles is
-            emended in this way only if it has 20 characters and two siblings.  The equations of chapter 3 are
-            symmetric in x, y and z, so that their cards are siblings of each other.
+            emended in this way only if it has at least 20 characters and the reading has at least two siblings.
+            The equations of chapter 3 are symmetric in x, y and z, so that their cards are siblings of each other.
 ``sibling`` the same as ``forced``, but the reading inserts a character
 
 A reading with the ground ``parse`` or ``print`` is *certain*.  A reading that only siblings support is *probable*.  If

@@ -168,7 +168,7 @@ def _pieces(text: str) -> tuple[Piece, ...]:
 def _changed(
     pieces: tuple[Piece, ...], first: int, last: int, place: Place, layers: Collection[str]
 ) -> tuple[Piece, ...]:
-    """Return the pieces after turning the characters ``first`` to ``last`` of the text with all layers into ``place``.
+    """Return the pieces of a line with ``place`` instead of the characters ``first`` to ``last`` of its text.
 
     If an earlier place contains the whole fragment, the new place is put into the new reading of the earlier place.  An
     earlier place that contains only a part of the fragment becomes part of the old reading as a whole; the text of the

@@ -7,8 +7,8 @@ skipping cards costs a little, and a jump to any other card costs as many points
 A line may also belong to no card (a page number, a running head).  Two lines may belong to one card (a hyphenated
 line), and one line to two cards.  A line with more than two cards is divided first, by aligning its characters with the
 cards.  Statement numbers that form a separate column are joined with their statements afterwards.  Line numbers and
-columns 73 to 80 are removed if the rest resembles the cards more.  A run of consecutive cards is accepted only if it
-gains more points than a jump costs, and if its lines resemble no other cards equally well.
+columns 73 to 80 are removed if the lines without them resemble the cards more.  A run of consecutive cards is accepted
+only if it gains more points than a jump costs, and if its lines resemble no other cards equally well.
 
 Before lines are compared, characters that may be confused are replaced by one character that represents them
 (:mod:`modern.edition.alignment`), so that misreadings of the expected kind cost nothing.
@@ -73,7 +73,7 @@ class EditionCard:
 class Span:
     """Consecutive lines that contain consecutive cards, and the points that they gain.
 
-    ``lines`` are indices of lines in the transcription after cleaning, and ``cards`` indices of cards in the edition.
+    ``lines`` are indices of lines in the cleaned transcription, and ``cards`` indices of cards in the edition.
     """
 
     lines: tuple[int, ...]
@@ -187,7 +187,7 @@ class _Index:
     def candidates(self, line: str) -> list[tuple[str, float]]:
         """Return the card texts that are most similar to a folded line, with the points that each gains.
 
-        The points are the number of characters minus two for each difference.
+        A card text gains a point for each of its characters and loses two for each difference.
         """
         shared: Counter[str] = Counter()
         for gram in set(_trigrams(line)):

@@ -114,7 +114,7 @@ def _pieces_of(pieces: Iterable[Piece]) -> Iterable[tuple[tuple[str, int], tuple
 
 
 def _witness(div: Element, edition: _Edition, lines: Iterable[Segments]) -> None:
-    """Write every line of the witness in order. Lines that the apparatus inserts follow the line before them."""
+    """Write every line of the witness in order. A line that the apparatus inserts follows its predecessor."""
     groups: dict[str, list[Segments]] = {}  # each line of the witness with the lines inserted after it
     last = ""
     for line in lines:
@@ -174,7 +174,7 @@ def _write(parent: Element, edition: _Edition, pieces: Iterable[Piece]) -> None:
 
 
 def _app(parent: Element, edition: _Edition, place: Place) -> None:
-    """Write the readings of a row at one place. The first ``app`` of a row has its id and its notes."""
+    """Write the readings of a row at one place. The first ``app`` of a row has the row's id and notes."""
     row = place.row
     edition.app_counts[row.id] = edition.app_counts.get(row.id, 0) + 1
     first = edition.app_counts[row.id] == 1

@@ -84,7 +84,7 @@ def _attribute_list(target: Element, entries: Element) -> None:
 
 
 def _values(attribute: Element, entry: Element) -> None:
-    """Write the permitted values of an attribute, from a closed list or a datatype: one value, or several."""
+    """Write whether an attribute has one value or several, and its permitted values: a closed list or a datatype."""
     data = entry.find(f"{_TEI}datatype/{_TEI}dataRef")
     values = [item.get("ident", "") for item in entry.iterfind(f"{_TEI}valList/{_TEI}valItem")]
     if data is None:

@@ -18,7 +18,7 @@ A method raises an *alarm* at a decision if it cannot confirm the target that th
 If the number has no significant digit, ``cadna3``, ``cadna10`` and ``parker10`` take the branch for zero; ``vote10``
 takes the branch of most samples.  Chapter 7's e applies to the decisions that the layer ``epsilon`` changes.  It raises
 an alarm if the number is within e of zero, but not zero, and zero leads to another target.  The measure records the
-least power of ten that raises an alarm as e.
+least power of ten that raises an alarm if it is used as e.
 """
 
 import hashlib
@@ -162,7 +162,7 @@ def _rules(seed: int) -> Rules:
 
 
 def _estimated(drawn: Any, factor: float) -> list[tuple[float, bool, float]]:
-    """Return for each number the mean of its samples, True if no digit is significant, and its count of such digits.
+    """Return for each number its samples' mean, True if no digit is significant, and how many digits are significant.
 
     If all samples of a number are equal, all its digits are significant.
     """

@@ -23,7 +23,7 @@ FORMS = {"alone": "as on the sheet (.0146)", "added": "added to a whole number (
 
 
 def cells(samples: int, route: Programs) -> tuple[Cell, ...]:
-    """Return the cells of the study: one for each share of decimals and each form of them."""
+    """Return the cells of the study: one for each share and each form of decimals."""
     return tuple(
         Cell(
             {"decimals": share, "form": form},

@@ -293,7 +293,7 @@ def blind_restorer() -> Iterator[Restorer]:
 
 
 def summary(copies: Sequence[Copy]) -> list[tuple[str, ...]]:
-    """Return a table: for each damage, class and ground the number of emended cards, and the errors with an interval.
+    """Return for each damage, class and ground a row with the emended cards and the wrong readings with an interval.
 
     The last column counts the errors in copies of the listings.  For cards without a restored text, the table gives
     the number of damaged cards.  Intervals are exact 95 % intervals (Clopper and Pearson).

@@ -1,7 +1,7 @@
 """Measure the simulated time of runs on IBM's library of 1962, and compare it with the emulator's model of time.
 
 A simulator with ``instruction_times.patch`` adds up the published times of the executed instructions.  The results are
-kept in ``docs/ibm1962/times.csv``.  :data:`emulator.machine.timing.MODEL` is the range of the ratios of measured and
+kept in ``docs/ibm1962/times.csv``.  :data:`emulator.machine.timing.MODEL` is the range of the ratios of measured to
 modelled times.
 """
 

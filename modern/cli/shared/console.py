@@ -118,7 +118,7 @@ def version() -> str:
 
 
 def write_json(args: argparse.Namespace, document: object) -> None:
-    """Write a document to the file of ``--json``, if it is named."""
+    """Write a document to the file of ``--json``, if the option is given."""
     import json
 
     from emulator.files import write_text

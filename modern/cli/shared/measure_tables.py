@@ -34,7 +34,7 @@ Row = tuple[Cell, ...]
 
 
 def centres_row(label: int, measures: Measures) -> Row:
-    """Return the row of a label and the hull of its voxels' centres, which excludes parts of the outer voxels."""
+    """Return a label's row with the hull of its voxels' centres, a hull that excludes parts of the outer voxels."""
     return (
         Cell("label", label),
         Cell("voxels", measures.voxels),
@@ -45,13 +45,13 @@ def centres_row(label: int, measures: Measures) -> Row:
 
 
 def solid_row(label: int, measures: Measures) -> Row:
-    """Return the row of a label and the hull of its voxels' corners, which contains the whole solid."""
+    """Return a label's row with the hull of its voxels' corners, a hull that contains the whole solid."""
     solidity = Cell("solidity", measures.solidity, True)
     return (*centres_row(label, measures), solidity, Cell("deficiency", measures.deficiency, True))
 
 
 def filled_row(label: int, hull: DigitalHull, voxel_volume: Fraction) -> Row:
-    """Return the row of a label whose hull was filled with voxels."""
+    """Return a label's row with a hull that was filled with voxels."""
     return (
         Cell("label", label),
         Cell("voxels", hull.given),
@@ -65,7 +65,7 @@ def filled_row(label: int, hull: DigitalHull, voxel_volume: Fraction) -> Row:
 
 
 def measure_lines(measures: Measures, unit: str, corners: bool) -> Iterator[str]:
-    """Yield the measures of a solid and of the hull of its corners or centres."""
+    """Yield lines with the measures of a solid and of the hull of its voxels' corners or centres."""
     cubic, square = (f" {printable(unit)}^{power}" if unit else "" for power in (3, 2))
     precision = f", to {AREA_DIGITS} digits" if len(measures.hull_area.as_tuple().digits) >= AREA_DIGITS else ""
     yield f"volume of the voxels: {_with_exact(measures.volume)}{cubic}"

@@ -19,8 +19,8 @@ from modern.cli.shared.run_output import is_terminal
 class Attendance:
     """The operator of a run.
 
-    show: a function that shows a typed line to a person at the terminal, or None.  file: the file whose lines answer,
-    or None.
+    show: a function that shows a typed line to a person at the terminal, or None.  file: the file whose lines answer
+    the program's questions, or None.
     """
 
     operator: Operator

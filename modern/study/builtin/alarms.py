@@ -121,7 +121,7 @@ class _Group:
         return _Group(*(getattr(self, part.name) + getattr(other, part.name) for part in fields(self)))
 
     def best_e(self) -> int:
-        """Return the exponent of the e = 10**k that notices the most wrong decisions; of several, the least."""
+        """Return the k for which e = 10**k notices the most wrong decisions; the least k if there are several."""
         return max(POWERS, key=lambda k: self.noticed[e_name(k)])
 
     def share(self, counter: Counter[str], name: str) -> Interval | None:
@@ -150,7 +150,7 @@ def _by_method(figures: Mapping[str, Any]) -> Iterator[tuple[str, int, int, int,
 class _Rows:
     """The counts of the report.
 
-    groups: by cell.  places: by the statement of the first wrong decision.
+    groups: the counts by cell.  places: the counts by the statement of the first wrong decision.
     """
 
     groups: dict[int, _Group] = field(default_factory=dict)

@@ -51,7 +51,7 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
 
 @dataclass(frozen=True, slots=True)
 class _Divergences:
-    """Counts of sets by cell and by the first statement that decided differently.
+    """Counts of sets by cell and by the first statement at which the two runs decide differently.
 
     right: the same counts for sets whose hull is right.  undecided: the number of sets that exact arithmetic cannot
     follow.

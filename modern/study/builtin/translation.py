@@ -154,7 +154,7 @@ class _Pair:
 
     @property
     def bounds(self) -> tuple[float, float]:
-        """Return the bounds of the processor seconds without the move, which follow from the model's error."""
+        """Return the bounds of the processor seconds without translation, which follow from the time model's error."""
         devices = sum(self.plain[name] for name in _SECONDS[1:])
         return self.plain["model_low"] - devices, self.plain["model_high"] - devices
 

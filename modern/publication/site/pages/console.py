@@ -31,7 +31,7 @@ def make(argument: str) -> list[Part]:
 
 
 def _wrong() -> list[Part]:
-    """Compare the hull that the programs punch with the true hull: picture, differences and exact calculation."""
+    """Return a comparison of a punched hull with the true hull: picture, differences and exact calculation."""
     source = read(FILE)
     points = parse_input(source, "silent.deck").points
     run = run_hull(deck_from_text("silent.deck", source), program)
@@ -63,7 +63,7 @@ def _statement_link(divergence: str) -> str:
 
 
 def _worked(points: tuple[tuple[str, ...], ...]) -> str:
-    """Return, for each of four points, the exact value at this point of the plane through the other three."""
+    """Return for each of four points the exact value that the equation of the plane through the others has at it."""
     exact = [coordinates(point) for point in points]
     rows = []
     for out in range(4):

@@ -112,7 +112,7 @@ def _loop(hull: Assembled, number: int, loop: Loop) -> str:
 
 
 def loop_svg(hull: Assembled, number: int) -> str:
-    """Draw the topological map after a loop is closed.
+    """Draw the planar map of a hull's edges after a loop is closed (Appel and Will).
 
     The surface of the loop is grey, and the number at each edge counts its uses so far. The largest surface is the
     outside of the map, so its grey area surrounds the map.
