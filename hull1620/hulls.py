@@ -113,7 +113,7 @@ def exact_hull(points: Points, fast: bool | None = None) -> Hull:
         As in ``convex_hull``.
     fast : bool, optional
         Use (True) or do not use (False) a compiled kernel, which needs the extra ``fast``, to find the hull that is
-        then proved.  The default uses it if it is already loaded or there are very many points.
+        then proved.  By default the kernel is used if it is already loaded or there are very many points.
 
     Returns
     -------

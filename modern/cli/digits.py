@@ -236,7 +236,7 @@ def _decisions(
 
 
 def _statements(divergence: Divergence, sampling: Sampling) -> Table:
-    """Return a table of statements with the digits that their values lost and, by stochastic runs, still have."""
+    """Return a table of statements: the digits that their values lost, and the digits that stochastic runs estimate."""
     losses = {loss.line.index: loss for loss in divergence.losses}
     rows = []
     for row in sorted(sampling.statements, key=lambda row: (row.worst, row.line.place.card)):

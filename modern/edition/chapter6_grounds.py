@@ -209,7 +209,7 @@ def _order(chapter: Chapter, row: Row, ground: Ground) -> bool:
 
 
 def _by_columns(chapter: Chapter, row: Row, ids: Sequence[str]) -> bool:
-    """Return True if the row sorts lines of the witness that are out of order by their first columns."""
+    """Return True if the row puts lines of the witness that are out of order into the order of their first columns."""
     witness = [line for line in chapter.text.witness if line.id in ids]
     ordered = sorted(witness, key=lambda line: len(line.text) - len(line.text.lstrip()))
     others = frozenset(r.id for r in chapter.text.rows) - {row.id}

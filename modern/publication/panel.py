@@ -239,7 +239,7 @@ class Record:
             self.stages.append(picture(session) | {"final": self._is_final})
 
     def _recognise(self, line: Line, session: Session) -> None:
-        """Compare the state of the run with the states kept before the same statement; equal states mean a loop."""
+        """Compare the state of the run with those kept at earlier visits to the statement; equal states mean a loop."""
         count, state, numbers = len(self.times), session.state, session.options.numbers
         if session.switches != self._switches:
             self._switches = list(session.switches)
