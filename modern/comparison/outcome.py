@@ -67,7 +67,7 @@ def from_cards(name: str, run: HullRun, points: Sequence[Vector]) -> Outcome:
 
 
 def from_card_hull(name: str, program: str, hull: CardHull, points: Sequence[Vector]) -> Outcome:
-    """Convert a hull that the built-in ``program`` punched on cards to the form for comparisons."""
+    """Convert a hull that the built-in ``program`` punched on cards to an Outcome."""
     # The points are visited in reverse order, so that of several equal points the first one remains.
     indices = {tuple(point): index for index, point in reversed(list(enumerate(points)))}
     sets, strange = [], 0
@@ -91,7 +91,7 @@ def from_hull(name: str, hull: Hull) -> Outcome:
 
 
 def from_judge(hull: ExactHull, points: Sequence[Vector]) -> Outcome:
-    """Convert an exact hull to the form for comparisons.  The edges of a polygon become projected lines."""
+    """Convert an exact hull to an Outcome.  The edges of a polygon become lines in the projected plane."""
     if hull.dimension == 3:
         equations = [_four([Fraction(c) for c in hull.plane_of(facet)]) for facet in hull.facets]
     elif hull.dimension == 2:
@@ -103,7 +103,7 @@ def from_judge(hull: ExactHull, points: Sequence[Vector]) -> Outcome:
 
 
 def as_hull(judged: ExactHull) -> Hull:
-    """Convert an exact hull to the type of the result of Butler's procedure.  Points keep their order.
+    """Convert an exact hull to a Hull, the type that Butler's procedure returns.  Points keep their order.
 
     Numbers become exact text.  The texts of points, and the equations of a polyhedron, are computed on access.
     """
@@ -174,7 +174,7 @@ def _four(equation: Sequence[Fraction]) -> Equation:
 
 
 def _lines(hull: ExactHull, points: Sequence[Vector]) -> list[Equation]:
-    """Return the edges of a polygon as lines in the projected plane, negative at the polygon's other vertices."""
+    """Return the equations of a polygon's edges, projected, with negative values at the other vertices."""
     assert hull.plane is not None
     drop = next(k for k in range(3) if hull.plane[k])
     u, v = (k for k in range(3) if k != drop)

@@ -76,7 +76,7 @@ class Printed:
 
 @dataclass(frozen=True, slots=True)
 class Sampling:
-    """The result of N random runs in step: statements, decisions, printed numbers, and their common ending."""
+    """The result of N random runs on common branches: statements, decisions, printed numbers, and their ending."""
 
     numbers: SampledNumbers
     statements: tuple[StatementDigits, ...]
@@ -227,7 +227,7 @@ def independent(
 
 
 def _compared(program: Program, pc: int, signs: Sequence[Sequence[int]]) -> DecisionShares:
-    """Compare the signs that the runs find at each execution of an IF.  The most frequent sign is taken."""
+    """Compare the signs that the runs find at each execution of an IF.  ``taken`` is the most frequent sign."""
     votes = _Votes()
     for execution in zip_longest(*signs):
         reached = [sign for sign in execution if sign is not None]

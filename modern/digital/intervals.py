@@ -54,7 +54,7 @@ def vertex_candidates(x: Grid, y: Grid, low: Grid, high: Grid) -> Grid:
 
 
 def reduced(x: Grid, y: Grid, z: Grid) -> tuple[Grid, Grid, Grid]:
-    """Remove points that cannot be lower vertices of the hull: points on or above a chord of their row or column.
+    """Remove points that are no vertices of the hull's lower side: those on or above a chord of their row or column.
 
     The arrays x, y, z hold at most one point for each (x, y), in raster order, and so does the result.
     """
@@ -129,7 +129,7 @@ def below_faces(faces: Iterable[tuple[Grid, Plane]], shape: tuple[int, int]) -> 
 
 
 def write_heights(grid: Grid, faces: Sequence[tuple[Grid, Plane]], rounded_up: bool) -> None:
-    """Write the height of each face, rounded to integers, into ``grid`` at the positions (x, y) that it covers.
+    """Write the height of each face, rounded up or down to integers, into ``grid`` at the (x, y) that it covers.
 
     Each face is a pair: its vertices, counterclockwise as seen from above, and the four coefficients of its plane, of
     which the third is positive. A later face overwrites an earlier one.

@@ -31,7 +31,7 @@ class Measures:
 
     @property
     def solidity(self) -> Fraction:
-        """The fraction of the hull that the solid fills, if the hull is that of the voxels' corners.
+        """For the hull of the voxels' corners, the fraction of the hull's volume that the solid fills.
 
         Raise VolumeError for a flat hull.
         """

@@ -28,7 +28,7 @@ class Scan:
 
     ``origin`` is the coordinates of the voxel at index 0. ``world`` is the position of the voxels, or None if it is
     unknown. ``source`` is the name in messages, and ``notes`` has one line for each remark of the reader. Raise
-    VolumeError for another type or number of axes, and for a value that is not a number.
+    VolumeError if the array has another type or number of axes, or a value that is not a number.
     """
 
     values: NDArray[Any]

@@ -74,7 +74,7 @@ def read_volume(
     threshold
         The least value of a voxel that belongs to the solid.
     labels
-        The values of voxels that belong to the solid. Without threshold and labels all values except 0 do.
+        The values of voxels that belong to the solid. Without a threshold or labels, these are all values except 0.
     spacing, origin
         The position of voxels, for a file that does not state it: one number for each axis, as in ``world_of``.
     array

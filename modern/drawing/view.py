@@ -83,9 +83,10 @@ def choose(points: Sequence[Vector], normals: Sequence[Vector]) -> Eye:
     """Return a direction in which no face is edge-on and no two vertices coincide, decided exactly.
 
     Among ``EYES``, choose the direction with the greatest score: the number of visible faces, reduced if a face is
-    nearly edge-on or two vertices nearly coincide. The first of equal scores wins. If no direction of ``EYES`` is
-    suitable, choose the first suitable direction on the curve (t, -t t - 1, t t t) for t = 2, 3, 4 and so on. A face or
-    a pair of vertices excludes at most three directions of the curve, so a suitable direction exists.
+    nearly edge-on or two vertices nearly coincide. Of several directions with the greatest score, choose the first. If
+    no direction of ``EYES`` is suitable, choose the first suitable direction on the curve (t, -t t - 1, t t t) for t =
+    2, 3, 4 and so on. A face or a pair of vertices excludes at most three directions of the curve, so a suitable
+    direction exists.
     """
     _, places = whole(points)
     primitive_normals = [lowest(normal) for normal in normals if any(normal)]

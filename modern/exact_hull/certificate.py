@@ -3,7 +3,7 @@
 ``certify`` checks the following in exact arithmetic, from the points and the result alone:
 
 1. The integers are the points times the least common scale.  Each index has exactly one class.  Every duplicate
-   names the first equal point.  The dimension is the rank of the points.
+   is paired with the first point equal to it.  The dimension is the rank of the points.
 2. Every facet's plane is in lowest terms, occurs once and contains the vertices of the facet.  No point is outside any
    plane.  The vertices in a plane are exactly those of its facet.  A point that is not a vertex lies in some plane if
    and only if its class is boundary.

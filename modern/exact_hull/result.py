@@ -80,7 +80,7 @@ def facets_as_arrays(facets: Sequence[Facet]) -> Facets:
 class Certificate:
     """Counts from a successful proof that a hull is correct.
 
-    dimension, points, vertices, edges, facets: those of the hull.
+    dimension, points, vertices, edges, facets: the hull's dimension, and how many of the others it has.
     arithmetic: "int64", or "float64 and integers" if a floating-point filter was used, or "none" for a point.
     evaluations: the number of exact signs of a plane at a point.
     in_integers: the number of these signs that the floating-point filter could not determine.
@@ -109,7 +109,7 @@ class ExactHull:
     duplicates: pairs of a point and the first point with the same coordinates, sorted.
     plane: for a polygon only, its plane without a common divisor, with the first nonzero number of A, B, C positive.
     facets: the facets sorted by plane, as a tuple or as ``Facets``.  The hull of a single point has none.
-    polygon: for a polygon only, its vertices from the smallest on, counterclockwise seen from the side to which
+    polygon: for a polygon only, its vertices, smallest index first, counterclockwise seen from the side to which
         (A, B, C) points.
     certificate: the counts of the proof.
     """

@@ -102,7 +102,7 @@ class Surface:
         return value(self.planes[triangle], self.points[p]) > 0
 
     def _distribute(self, points: list[int], triangles: range) -> None:
-        """Assign each point to one of ``triangles`` that it is outside of; a point without one is inside the hull."""
+        """Assign each point to one of ``triangles`` that it is outside of.  Points outside of none are in the hull."""
         if len(points) * len(triangles) <= _FEW:
             for p in points:
                 self._wait(p, next((triangle for triangle in triangles if self.sees(p, triangle)), -1))

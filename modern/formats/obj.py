@@ -1,4 +1,4 @@
-"""Write and read the Wavefront OBJ format: polygons and decimal text, both preserved.
+"""Write and read the Wavefront OBJ format, which preserves polygons and the decimal text of coordinates.
 
 A polyhedron is written with its faces (``f``), a polygon with one face, a segment as a line (``l``), a point as ``p``.
 The readers ignore anything after the x, y and z of a vertex (``v``), such as a weight or a colour.  A face numbers its

@@ -1,4 +1,4 @@
-"""Write and read PLY (Turk, "The PLY Polygon File Format", 1994): polygons and decimal text, both preserved.
+"""Write and read PLY (Turk, "The PLY Polygon File Format", 1994).  Polygons and decimal text are preserved.
 
 Written files are ASCII.  A polyhedron is written with its faces, a polygon with one face, a segment as an element
 ``edge``, a point as one vertex.  The coordinates are declared ``double``, so that other readers may round them, but

@@ -27,7 +27,7 @@ class FileMesh:
 
 
 def lines(text: str, comment: str = "#") -> Iterator[Line]:
-    """Yield the lines of a text that have tokens.  Comments, which begin with the mark ``comment``, are dropped."""
+    """Yield those lines of a text that have tokens.  Comments, which begin with the mark ``comment``, are dropped."""
     for line_number, line in enumerate(text.replace("\r\n", "\n").split("\n"), 1):
         content = line.split(comment, 1)[0] if comment else line
         tokens = [(match[0], match.start() + 1) for match in re.finditer(r"\S+", content)]

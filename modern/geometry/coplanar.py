@@ -3,7 +3,7 @@
 Such points are seldom exactly coplanar: the hull of a dodecahedron in doubles has 36 faces, not 12.  This module leaves
 the hull as it is and derives a second hull with joined faces from it:
 
-1. Visit the faces in order of area, from the largest to the smallest, and faces of equal area in their own order.
+1. Visit the faces in order of area, from the largest to the smallest, and faces of equal area in the order of the hull.
 2. Skip a face that already belongs to a joined face.  Otherwise join to it all faces that are connected to it through
    edges, have a normal less than 90 degrees from its normal, and have all vertices within E of its plane.
    Distances are compared exactly, by their squares.

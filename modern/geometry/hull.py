@@ -110,7 +110,7 @@ def as_tuple(members: Sequence[T]) -> tuple[T, ...]:
 
 @dataclass(frozen=True, slots=True)
 class Face:
-    """A supporting plane A x + B y + C z + D = 0, or a supporting line of a polygon, positive outside.
+    """A supporting plane A x + B y + C z + D = 0, or a supporting line of a polygon; its value is positive outside.
 
     ``coefficients`` are A, B, C and D as the thesis computes them, as sums of products of coordinates of the defining
     points. For a line, the coefficient of the coordinate that the projection drops is 0 (thesis p. 16-17).  ``lowest``
@@ -173,8 +173,8 @@ class Hull:
     """A convex hull, or the incomplete result of a procedure that found none, as exact text.
 
     arithmetic: the name of the arithmetic.
-    status: ``determined``, the message that the programs type, ``table of planes is full`` if they would write beyond
-        their arrays, or ``the faces do not form a closed surface`` if epsilon merged too many faces.
+    status: ``determined``, the message that the programs type, ``table of planes is full`` if the programs would
+        write beyond their arrays, or ``the faces do not form a closed surface`` if epsilon merged too many faces.
     dimension: from 0 for a point to 3 for a polyhedron.
     points: the input as numbers of the arithmetic.
     vertices, boundary, inside: points in the order in which the programs punch them.  The programs punch only the ends

@@ -1,8 +1,8 @@
 """Convert decimals and fractions to exact numbers, and exact numbers to text.
 
 ``exact_text`` formats the numbers of a hull. ``decimal_text`` and ``finite_decimal`` format numbers in files and
-messages, and use a decimal exponent for shorter numbers than ``exact_text``.  The module must not import numpy, because
-a page of the site runs it in the reader's browser, where numpy is missing.
+messages, and begin to use a decimal exponent at shorter numbers than ``exact_text`` does.  The module must not import
+numpy, because a page of the site runs it in the reader's browser, where numpy is missing.
 """
 
 import re

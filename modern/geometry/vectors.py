@@ -1,6 +1,7 @@
 """Vectors of three exact numbers, integers or fractions; the results have the type of the arguments.
 
-Butler's procedure (:mod:`modern.port`) does not share these functions with the exact hull, which checks its results.
+Butler's procedure (:mod:`modern.port`) uses these functions. The exact hull, which checks the results of the procedure,
+has functions of its own.
 """
 
 import math

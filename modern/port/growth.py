@@ -13,7 +13,7 @@ from modern.port.table import Equations, PointTable
 class Remaining:
     """The points that may still become vertices.
 
-    Each has a keeper, an equation of the hull that proves that the point is not inside.
+    Each point has a keeper, an equation of the hull that proves that the point is not inside the hull.
     """
 
     def __init__(self) -> None:

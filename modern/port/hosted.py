@@ -1,9 +1,9 @@
 """Numbers of the emulator as Python objects, with which Butler's procedure can compute in numpy arrays.
 
 These are the decimal numbers of the 1620 and the numbers that are rounded at random. ``a op b`` is the result that the
-machine computes if its accumulator holds a. If the machine would also type an error code, the result is used and no
-error is reported. The order of the operands matters in ``ibm1962``, in which zero plus zero keeps the sign of the
-accumulator, the left operand.
+machine computes if its accumulator holds a. If the machine would also type an error code, this result is used all the
+same, and no error is reported. The order of the operands matters in ``ibm1962``, in which zero plus zero keeps the sign
+of the accumulator, the left operand.
 """
 
 from collections.abc import Callable, Iterable

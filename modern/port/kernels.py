@@ -343,7 +343,7 @@ def count_on(coordinates: NDArray[Any], start: int, end: int, plane_equation: An
 
 
 def satisfied(slots: Any, coordinates: NDArray[Any], counts: NDArray[np.int64], indices: NDArray[np.int64]) -> int:
-    """List the points on each plane, as far as the array ``indices`` has room, and return the number of all of them."""
+    """Write the points on each plane into ``indices``, as far as it has room, and return the number of all of them."""
     k, count = 0, coordinates.shape[1]
     for slot in range(len(slots.alive)):
         plane_equation, e, first = equation(slots.coefficients, slot), slots.tolerances[slot], k

@@ -131,8 +131,8 @@ def other_lines(
 ) -> NDArray[np.bool_]:
     """Return a mask that is False for further equations of the line through ``ends`` (statements 161 to 167).
 
-    ``keep`` is the equation that remains. As in the listing, the index KK is not adjusted when earlier equations are
-    deleted. Raise Stopped if the listing would read beyond the end of its table.
+    ``keep`` (KK in the listing) is the index of the equation that remains. As in the listing, it is not adjusted after
+    earlier equations are deleted. Raise Stopped if the listing would read beyond the end of its table.
     """
     first, second = (points.at(int(i))[:2] for i in ends)
     both = (arithmetic.sign(table.all_at(first)) == 0) & (arithmetic.sign(table.all_at(second)) == 0)

@@ -1,4 +1,4 @@
-"""Find the edges of the hull: project all points parallel to the line through each pair of points, and test the image.
+"""Find the edges of the hull: project all points parallel to the line through each pair of points, and test the images.
 
 The line through the pair projects to a point C. The star polygon test (section "Polygon star test") receives the other
 images relative to C as pairs of integers, none of them at C. It returns True if C is outside the star polygon of these
@@ -118,9 +118,9 @@ class Edges:
 class Projection:
     """A projection parallel to the line through a pair of points.
 
-    ``images`` are the images of the points off the line, relative to the line's image C and up to one affine map.
-    ``line`` lists the points on the line, including the pair, sorted along it ("the distance from the orthographic
-    projection plane can serve as a basis for sorting").
+    ``images`` are the images of the points off the line, relative to the line's image C and up to an affine map that
+    all images share. ``line`` lists the points on the line, including the pair, sorted along it ("the distance from the
+    orthographic projection plane can serve as a basis for sorting").
     """
 
     images: list[Image]

@@ -67,7 +67,7 @@ def check_surfaces(count: int, surfaces: Sequence[Surface]) -> None:
 
 
 def oriented(points: Sequence[IntPoint], surfaces: Sequence[Surface]) -> tuple[Surface, ...]:
-    """Return the surfaces with their points counterclockwise as seen from outside. The first points do not change.
+    """Return the surfaces with their points counterclockwise as seen from outside, each from the same first point.
 
     Raise MapError unless the surfaces form one closed polyhedron: every surface is plane, every line is on two
     surfaces, all surfaces are connected, and they enclose a volume. The sign of the volume distinguishes inside from

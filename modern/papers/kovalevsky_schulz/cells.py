@@ -120,7 +120,7 @@ def planes_of(points: Sequence[IntPoint], cycles: Sequence[Sequence[int]]) -> li
 
 
 def _shifted(points: Sequence[IntPoint], sizes: Numbers) -> tuple[IntPoint, Array]:
-    """Return the least coordinates, and the points relative to them, as int64 if all later results fit."""
+    """Return the least coordinates, and the points relative to them, as int64 if all results computed from them fit."""
     x, y, z = (min(axis) for axis in zip(*points, strict=True))
     shifted = [(p[0] - x, p[1] - y, p[2] - z) for p in points]
     extent = max(map(max, shifted))

@@ -60,7 +60,7 @@ def _extra(volume: Volume, of: Of) -> int:
 
 
 def corners_by_neighbours(volume: Volume, of: Of = VERTICES) -> dict[int, Points]:
-    """Return the local corners found by the test of 6 neighbours and by that of 26, with these numbers as keys."""
+    """Return the local corners found by the test of 6 neighbours (key 6) and by that of 26 neighbours (key 26)."""
     extra = _extra(volume, of)
     # The slabs are cut across the axis with the largest stride, so that each is contiguous in memory.
     order = sorted(range(3), key=lambda axis: -abs(volume.array.strides[axis]))

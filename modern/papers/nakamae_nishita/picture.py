@@ -61,8 +61,8 @@ def as_svg(drawing: Drawing, title: str = "", width: int = 640) -> str:
     """Return a drawing as the text of an SVG file.
 
     The attribute ``data-edge`` of a line has the number of its polyhedron and the numbers of the two vertices of its
-    edge, all from 1. The corners of figures are numbered after the vertices. Raise ExportError for a width out of
-    range.
+    edge, all counted from 1. The corners of figures are numbered after the vertices. Raise ExportError for a width out
+    of range.
     """
     pixel, height = fit(_extent(drawing), checked_width(width), int(width * _HIGHEST_SHAPE))
 
