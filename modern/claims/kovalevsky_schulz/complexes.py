@@ -114,7 +114,9 @@ def incidence_by_coordinates() -> Check:
     cells = [*product(range(5), repeat=3)]
     points = {cell: [(c // 2, (c + 1) // 2) for c in cell] for cell in cells}
     near = {cell: star(cell) | sides(cell) for cell in cells}
-    outcomes = [len(set(map(tuple, points.values()))) == len(cells)]
+    # A cell is a point or a unit interval on each axis.
+    intervals = [(k, k + length) for length in (0, 1) for k in range(3 - length)]
+    outcomes = [sorted(points.values()) == sorted(map(list, product(intervals, repeat=3)))]
     outcomes += [dimension(cell) == sum(low < high for low, high in points[cell]) for cell in cells]
     # A cell bounds another one if its set of points is a part of that of the other cell.
     within = {
@@ -126,7 +128,8 @@ def incidence_by_coordinates() -> Check:
         bool({(e, f), (f, e)} & within) == (f in near[e]) == (e in near[f]) for e, f in product(cells, repeat=2)
     ]
     outcomes.append(any(near[f] - near[e] for e in cells for f in near[e] & {*cells}))
-    message = "coordinates tell the dimension and the incident cells of each cell; incidence is not transitive"
+    message = f"each of {len(cells)} cells has one element, whose coordinates tell its dimension and incident cells; "
+    message += "incidence is not transitive"
     return exhausted("cells of a block of eight voxels and pairs of them", outcomes, message)
 
 

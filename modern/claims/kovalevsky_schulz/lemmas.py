@@ -2,14 +2,24 @@
 
 from collections.abc import Sequence
 from fractions import Fraction
-from itertools import product
+from itertools import combinations, product
+from random import Random
 
-from modern.claims.evidence import Check, claim, refuted, search, searched
+from modern.claims.evidence import Check, Generator, claim, refuted, search, searched
 from modern.claims.hulls import exact_hull
 from modern.claims.kovalevsky_schulz.polyhedra import OUTSIDE, growing_polyhedra, horizon, hulls, polyhedron
 from modern.claims.kovalevsky_schulz.proofs import formula_4, lemma_be, lemma_ch, lemma_lz
 from modern.claims.kovalevsky_schulz.voxels import KINDS, SOLIDS, Voxels, local, points_of
-from modern.claims.sampled_sets import CASES, SETS, Plane, Point, counterexample_points, is_closed_curve, plane_value
+from modern.claims.sampled_sets import (
+    CASES,
+    SETS,
+    Plane,
+    Point,
+    counterexample_points,
+    is_closed_curve,
+    plane_through,
+    plane_value,
+)
 from modern.digital.solids import listed
 from modern.exact_hull import ExactHull
 from modern.geometry.vectors import cross, dot, minus
@@ -65,11 +75,34 @@ def _new_normal(edge: tuple[int, int], points: Sequence[Point], new: Point) -> P
     return next(f.plane[:3] for f in exact_hull([*points, new]).facets if corners <= {*f.polygon})
 
 
+def _draw_with_outside(random: Random) -> tuple[Point, ...]:
+    return (*SETS[3].draw(random), random.choice(OUTSIDE))
+
+
+def _is_general(points: tuple[Point, ...]) -> bool:
+    """Return True if no four points are coplanar and the last one is outside the hull of the others."""
+    if any(plane_value(plane_through(p, q, r), s) == 0 for p, q, r, s in combinations(points, 4)):
+        return False
+    *first, new = points
+    return len(first) > 3 and any(plane_value(facet.plane, new) > 0 for facet in exact_hull(first).facets)
+
+
+NO_FOUR_COPLANAR: Generator[tuple[Point, ...]] = Generator(
+    f"{SETS[3].name}, and a point outside their hull, no four of them coplanar",
+    14,
+    _draw_with_outside,
+    _is_general,
+)
+
+
 @claim("yau-srihari.14", full=400)
 def closed_boundary(cases: int = CASES) -> Check:
-    pairs = product(hulls(cases), (*OUTSIDE, (11, -4, 13)))
-    checks = [is_closed_curve(horizon(judge, new)) for (_, judge), new in pairs]
-    return searched(SETS[3], cases, checks, f"the boundary is closed for {len(checks)} points outside a hull")
+    def is_closed(points: tuple[Point, ...]) -> bool:
+        *first, new = points
+        return is_closed_curve(horizon(exact_hull(first), new))
+
+    message = "the boundary between the light and the dark faces is one closed curve"
+    return search(NO_FOUR_COPLANAR, is_closed, cases, message)
 
 
 @claim("kovalevsky-schulz.73", full=400)

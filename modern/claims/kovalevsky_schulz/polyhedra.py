@@ -140,11 +140,22 @@ def cube_visible_from_corner() -> Check:
     return exhibited(agrees, f"{len(planes)} faces and {len(removed)} edges are removed")
 
 
-@claim("kovalevsky-schulz.54", "kovalevsky-schulz.166")
+@claim("kovalevsky-schulz.54")
 def coplanar_triangles() -> Check:
     cells = polyhedron(GRID)
     passed = len(merged(cells).faces) == 6 < len(cells.faces)
     return exhibited(passed, f"a cubic grid of points gets {len(cells.faces)} triangles, which are merged to 6 faces")
+
+
+@claim("kovalevsky-schulz.166")
+def many_coplanar_triangles() -> Check:
+    # A prism on twelve points of a circle of radius 5.
+    circle = [(x, y) for x, y in product(range(-5, 6), repeat=2) if x * x + y * y == 25]
+    cells = polyhedron([(x, y, z) for x, y in circle for z in (0, 1)])
+    faces, in_base = len(merged(cells).faces), cells.planes().count((0, 0, -1, 0))
+    passed = in_base == len(circle) - 2 and faces == len(circle) + 2
+    message = f"a prism with {len(circle)} sides gets {len(cells.faces)} triangles, {in_base} of them in each base"
+    return exhibited(passed, f"{message}; they are merged to {faces} faces")
 
 
 @claim("kovalevsky-schulz.63", full=400)

@@ -114,8 +114,13 @@ def _row(diameter: int) -> HalfBall:
 def diameter_8() -> Check:
     row = _row(8)
     possible = may_be_convex(int(row.corners), row.faces) or row.has_quarter_turns()
+    # A list has 3 V + 2 E integers and, if the number of pairs of each face counts, F more; E = V + F - 2.
+    constants = [2 * (row.faces - 2) + more for more in (0, row.faces)]
+    exact = any((row.integers - constant) % 5 == 0 for constant in constants)
     message = f"(6) implies {row.corners} vertices with {row.faces} faces, which allow {2 * row.faces - 4}; "
-    return refuted(not possible, f"{message}quarter turns move all vertices but one in groups of 4")
+    message += "quarter turns move all vertices but one in groups of 4; "
+    message += f"a cell list itself has {' or '.join(f'5 V + {constant}' for constant in constants)} integers"
+    return refuted(not possible and not exact, message)
 
 
 @claim("kovalevsky-schulz.87", diameter=10)

@@ -64,6 +64,7 @@ BY_HAND: dict[str, tuple[str, Callable[[Any], object]]] = {
         lambda original: lambda paper: [replace(result, printed=result.corrected) for result in original(paper)],
     ),
     "kovalevsky-schulz.96": ("_is_symmetric", lambda _: lambda ring: True),
+    "kovalevsky-schulz.166": ("merged", lambda _: lambda cells: cells),
     "thesis.3": ("programs", _without_code),
     "thesis.65": ("programs", _listing_with("NETC", "NTC")),
     "thesis.129": ("_c_0", lambda original: lambda *points: original(*points) + 1),
@@ -164,6 +165,11 @@ def test_memory_condition_names_the_right_diameters(diameter: int, monkeypatch) 
         monkeypatch.setattr(sizes, "half_balls", lambda row=spoiled: {**rows, diameter: row}.values())
         assert verdict(sizes.memory_requirements()) != verdict(expected)
     assert expected.holds
+
+
+def test_memory_claim_fails_if_cell_lists_are_as_large_as_triangulations(monkeypatch) -> None:
+    monkeypatch.setattr(sizes, "economical_size", lambda cells: sizes.triangulation_size(2 * len(cells.vertices) - 4))
+    assert not sizes.memory_requirements().holds
 
 
 @pytest.mark.parametrize(("number", "wrong"), [(-2, -1), (-1, 0), (0, -1), (-4, -2)])
