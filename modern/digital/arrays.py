@@ -114,7 +114,7 @@ def check_size(shape: Sequence[int], source: str) -> None:
 
 
 def _as_truth(array: NDArray[Any]) -> NDArray[Any]:
-    """Convert the bytes of truth values to 0 and 1. A file may hold others, but numpy assumes 0 or 1."""
+    """Convert the bytes of truth values to 0 and 1. A file may hold other bytes, but numpy assumes 0 or 1."""
     return array.view(np.uint8) != 0 if array.dtype == np.bool_ else array
 
 

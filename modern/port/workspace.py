@@ -29,8 +29,8 @@ THROUGH, TABLE, PAIR = 1, 2, 4
 class Cloud(NamedTuple):
     """The points in their current order: coordinates, shape (3, n), and input indices.
 
-    ``keeper`` is the slot of a plane that has the point on it or outside it, or -1. ``eliminated`` collects the
-    eliminated points.
+    ``keeper`` has, for each point, the slot of a plane that the point is on or outside of, or -1. ``eliminated``
+    collects the eliminated points.
     """
 
     coordinates: NDArray[Any]

@@ -86,7 +86,7 @@ def hull_cells(points: Points) -> CellList | Flat:
 
 
 def _renumbered(cells: CellList, cycles: list[list[int]]) -> CellList:
-    """Return the cell list of faces given as cycles of vertices of ``cells``, without the vertices of no face."""
+    """Return the cell list of faces, given as cycles of vertices of ``cells``. Omit vertices that are on no face."""
     # The paper numbers the cells of the merged list consecutively.
     used = sorted({vertex for cycle in cycles for vertex in cycle})
     numbers = {old: new for new, old in enumerate(used, 1)}
