@@ -140,6 +140,11 @@ def _normal(points: tuple[Point, ...], start: tuple[int, ...]) -> Point:
     return cross(minus(q, p), minus(r, p))
 
 
+def added_points(hull: Hull) -> list[int]:
+    """Return the indices of the points that the procedure added to its hulls, in order."""
+    return [k for stage in hull.history for k in stage.added]
+
+
 @cache
 def _drawn(dimension: int) -> tuple[list[SampledSet], Random]:
     """Return the sets drawn so far and the state of the generator; :func:`sampled_sets` extends the list."""

@@ -22,14 +22,15 @@ from modern.claims.sampled_sets import (
     reduced_plane,
     sampled_sets,
 )
+from modern.geometry.mesh import sides
 from modern.geometry.vectors import cross, dot, minus
 
 
 @claim("thesis.18")
 def weights_of_combination() -> Check:
-    sides = [facet.plane for facet in exact_hull([(0, 0, 0), (4, 0, 0), (0, 4, 0)]).facets]
+    lines = [facet.plane for facet in exact_hull([(0, 0, 0), (4, 0, 0), (0, 4, 0)]).facets]
     weights = [(4 - x - y, x, y) for x in range(-3, 8) for y in range(-3, 8)]
-    outcomes = [(min(w) >= 0) == all(plane_value(side, (w[1], w[2], 0)) <= 0 for side in sides) for w in weights]
+    outcomes = [(min(w) >= 0) == all(plane_value(line, (w[1], w[2], 0)) <= 0 for line in lines) for w in weights]
     inner = sum(min(w) >= 0 for w in weights)
     message = f"of {len(weights)} combinations of the corners of a triangle, whose weights have the sum 1, only the "
     message += f"{inner} without a negative weight are in the triangle"
@@ -120,8 +121,7 @@ def _turned_planes(points: Sequence[Point]) -> set[frozenset[int]]:
             facets_found.add(frozenset(on))
         # Turn the plane about each edge of the face found, in both directions.
         ring = [points[on[k]] for k in (flat.polygon if flat.dimension == 2 else flat.vertices)]
-        sides = zip(ring, (*ring[1:], ring[0]), strict=True)
-        queue += [_turned(points, *ends) for a, b in sides for ends in ((a, b), (b, a))]
+        queue += [_turned(points, *ends) for a, b in sides(ring) for ends in ((a, b), (b, a))]
     return facets_found
 
 
@@ -164,9 +164,9 @@ def lines_from_pairs(cases: int = CASES) -> Check:
         lines = set()
         flat = [(x, y) for x, y, _ in sampled.points]
         for p, q in combinations(flat, 2):
-            sides = [area(p, q, r) for r in flat]
-            if max(sides) <= 0 or min(sides) >= 0:
-                lines.add(frozenset(k for k, side in enumerate(sides) if not side))
+            areas = [area(p, q, r) for r in flat]
+            if max(areas) <= 0 or min(areas) >= 0:
+                lines.add(frozenset(k for k, value in enumerate(areas) if not value))
         agreeing += lines == {_on(sampled.points, facet.plane) for facet in sampled.judge.facets}
     message = f"in {agreeing} of {len(sets)} sets, the test of all lines finds exactly the edges of the exact hull"
     return searched(SETS[2], cases, [agreeing == len(sets)], message)

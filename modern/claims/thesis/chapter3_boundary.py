@@ -11,9 +11,9 @@ from random import Random
 from modern.claims.evidence import Check, Generator, claim, exhibited, searched, slip
 from modern.claims.hulls import convex_hull, exact_hull
 from modern.claims.register import statements_of
-from modern.claims.sampled_sets import CASES, SETS, Point, plane_value, sampled_sets
+from modern.claims.sampled_sets import CASES, SETS, Point, added_points, plane_value, sampled_sets
+from modern.claims.thesis.chapter3_equations import parts
 from modern.claims.thesis.identities import coordinate_planes
-from modern.exact_hull import ExactHull
 from modern.geometry.vectors import cross, dot, minus
 
 # A triangle, and a point on one of its sides that the procedure adds to the hull under construction.
@@ -27,8 +27,7 @@ _USED_POINTS: list[Point] = [(3, 0, 0), (3, 2, 1), (0, 2, 0), (0, 0, 0), (3, 0, 
 @claim("thesis.81")
 def used_boundary_point() -> Check:
     points = _POINT_ON_A_SIDE
-    hull = convex_hull(points, history=True)
-    used = sorted(k for stage in hull.history for k in stage.added)
+    used = sorted(added_points(convex_hull(points, history=True)))
     facets = exact_hull(points).facets
     on_one = [points[k] for k in used if sum(not plane_value(facet.plane, points[k]) for facet in facets) == 1]
     return exhibited(on_one, f"added points that are on only one line of the last hull: {', '.join(map(str, on_one))}")
@@ -56,7 +55,7 @@ def end_of_the_procedure(dimension: int, cases: int = 2) -> Check:
     outcomes, removed = [], [0, 0, 0]
     for points in (*LATTICE_SETS[dimension].cases(cases), _POINT_ON_A_SIDE if dimension == 2 else _USED_POINTS):
         hull, judge = convex_hull(points, history=True), exact_hull(points)
-        used = {k for stage in hull.history for k in stage.added}
+        used = {*added_points(hull)}
         remaining = {*range(len(points))} - used - {k for stage in hull.history for k in stage.struck}
         outcomes.append(remaining <= {*judge.boundary} and {*hull.vertices} == {*judge.vertices} <= used)
         outcomes.append(len({face.lowest for face in hull.faces}) == len(hull.faces) == len(judge.facets))
@@ -74,17 +73,18 @@ def duplicate_lines(cases: int = 3 * CASES) -> Check:
     for points in (*LATTICE_SETS[2].cases(cases), _POINT_ON_A_SIDE):
         hull = convex_hull(points, history=True)
         last = hull.history[-1].equations
-        used = {k for stage in hull.history for k in stage.added}
+        used = {*added_points(hull)}
         for face in hull.faces:
-            side = {k for k in used if _on_side(points, face.polygon, k)}
+            side = used & {*on_line(points, *face.polygon)}
             outcomes += [sum({*ends} <= side for ends in last) >= 2] if len(side) > 2 else []
     message = f"{sum(outcomes)} of {len(outcomes)} sides with three or more added points have two or more equations"
     return searched(LATTICE_SETS[2], cases, outcomes, message)
 
 
-def _on_side(points: Sequence[Point], ends: tuple[int, ...], k: int) -> bool:
-    p, q = points[ends[0]], points[ends[1]]
-    return not any(cross(minus(q, p), minus(points[k], p)))
+def on_line(points: Sequence[Point], a: int, b: int) -> list[int]:
+    """Return the indices of the points on the line through two of them."""
+    p, q = points[a], points[b]
+    return [k for k, x in enumerate(points) if not any(cross(minus(q, p), minus(x, p)))]
 
 
 @claim("thesis.104", "thesis.105", full=300)
@@ -105,8 +105,8 @@ def planes_at_vertex(cases: int = CASES) -> Check:
 def used_points_in_planes() -> Check:
     points = _USED_POINTS
     hull, judge = convex_hull(points, history=True), exact_hull(points)
-    used = {k for stage in hull.history for k in stage.added} - {*judge.vertices}
-    planes = {points[k]: sum(not plane_value(f.plane, points[k]) for f in judge.facets) for k in sorted(used)}
+    used = sorted({*added_points(hull)} - {*judge.vertices})
+    planes = {points[k]: sum(not plane_value(f.plane, points[k]) for f in judge.facets) for k in used}
     passed = {*planes.values()} == {1, 2} and {*hull.vertices} == {*judge.vertices}
     message = ", ".join(f"{n} for {point}" for point, n in planes.items())
     return exhibited(passed, f"number of planes of the last hull that contain an added point: {message}")
@@ -147,15 +147,10 @@ def hull_of_projection(cases: int = CASES) -> Check:
         for points, normal in ((sampled.points, plane), ([(x, y, 2 * x) for x, y, _ in sampled.points], (2, 0, -1))):
             for axis in (k for k in range(3) if normal[k]):
                 image = [_with_0(point, axis) for point in points]
-                checks.append(_parts(image, exact_hull(image)) == _parts(points, exact_hull(points)))
+                before, after = (parts(some, exact_hull(some)) for some in (points, image))
+                checks.append(before == after)
     message = "projections keep the vertices, the boundary and inside points, and the points of each line"
     return searched(SETS[2], cases, checks, f"{sum(checks)} of {len(checks)} {message}")
-
-
-def _parts(points: Sequence[Point], hull: ExactHull) -> tuple[object, ...]:
-    # The exact hull represents a line of a flat set by the plane through the line perpendicular to the set.
-    lines = {frozenset(k for k, point in enumerate(points) if not plane_value(f.plane, point)) for f in hull.facets}
-    return {*hull.vertices}, {*hull.boundary}, {*hull.inside}, lines
 
 
 @claim("thesis.273")

@@ -14,7 +14,6 @@ from modern.claims.sampled_sets import (
     SETS,
     Plane,
     Point,
-    SampledSet,
     flat_and_spatial_sets,
     plane_through,
     plane_value,
@@ -31,16 +30,17 @@ def procedure_against_judge(dimensions: Sequence[int], cases: int = CASES) -> Ch
     """Check that the procedure in exact arithmetic finds the vertices, other points and planes of the exact hull."""
     same = []
     for sampled in (sampled for dimension in dimensions for sampled in sampled_sets(dimension, cases)):
-        planes = [face.lowest for face in sampled.hull.faces], [facet.plane for facet in sampled.judge.facets]
-        same.append(_parts(sampled, sampled.hull, planes[0]) == _parts(sampled, sampled.judge, planes[1]))
+        same.append(parts(sampled.points, sampled.hull) == parts(sampled.points, sampled.judge))
     message = f"in exact arithmetic {sum(same)} of {len(same)} sets agree with the exact hull"
     return searched(BOTH if len(dimensions) == 2 else SETS[dimensions[0]], len(same), same, message)
 
 
-def _parts(sampled: SampledSet, hull: Hull | ExactHull, planes: Sequence[Plane]) -> tuple[object, ...]:
+def parts(points: Sequence[Point], hull: Hull | ExactHull) -> tuple[object, ...]:
     """Return the kinds of the points, and for each plane or line the points on it, also for the plane of a flat set."""
+    planes = [face.lowest for face in hull.faces] if isinstance(hull, Hull) else [f.plane for f in hull.facets]
+    # The exact hull represents a line of a flat set by the plane through the line perpendicular to the set.
     flat: list[Plane] = [tuple(map(int, hull.plane))] if hull.plane else []  # type: ignore[list-item]
-    on = [[k for k, point in enumerate(sampled.points) if not plane_value(plane, point)] for plane in (*planes, *flat)]
+    on = [[k for k, point in enumerate(points) if not plane_value(plane, point)] for plane in (*planes, *flat)]
     return {*hull.vertices}, {*hull.boundary}, {*hull.inside}, sorted(on)
 
 
@@ -119,20 +119,14 @@ def first_two_points(cases: int = CASES) -> Check:
 
 
 def line_as_printed(u1: int, v1: int, u2: int, v2: int) -> Line:
-    """Return equation (3.1), (3.2) or (3.3): (v2 - v1) U + (u1 - u2) V + (u2 - u1) v1 + (v1 - v2) u1 = 0."""
+    """Return equation (3.1), (3.2), (3.3) or (3.5): (v2 - v1) U + (u1 - u2) V + (u2 - u1) v1 + (v1 - v2) u1 = 0."""
     return v2 - v1, u1 - u2, (u2 - u1) * v1 + (v1 - v2) * u1
 
 
-def line_of_page_19(xm: int, ym: int, xk: int, yk: int) -> Line:
-    """Return equation (3.5): (yk - ym) x + (xm - xk) y + (xk - xm) ym + (ym - yk) xm = 0."""
-    return yk - ym, xm - xk, (xk - xm) * ym + (ym - yk) * xm
-
-
-@claim("thesis.40", "thesis.41", "thesis.43", page=12)
-@claim("thesis.62", page=19)
-def equation_of_line(page: int) -> Check:
+@claim("thesis.40", "thesis.41", "thesis.43", "thesis.62")
+def equation_of_line() -> Check:
     def difference(u1: int, v1: int, u: int, v: int, along: int, right: int) -> int:
-        a, b, c = (line_as_printed if page == 12 else line_of_page_19)(u1, v1, u1 + u, v1 + v)
+        a, b, c = line_as_printed(u1, v1, u1 + u, v1 + v)
         return a * (u1 + along * u + right * v) + b * (v1 + along * v - right * u) + c - right * (u * u + v * v)
 
     message = "in the two coordinates of the equation, its left side is 0 exactly on the line through the two points"

@@ -17,6 +17,7 @@ from modern.claims.sampled_sets import (
     Plane,
     Point,
     SampledSet,
+    added_points,
     flat_and_spatial_sets,
     plane_through,
     plane_value,
@@ -98,10 +99,14 @@ def _steps(sampled: SampledSet) -> Iterator[tuple[Approximation, Approximation, 
         yield before, after, record, record.added[0]
 
 
+def _contains(stage: Approximation, point: Point) -> bool:
+    return all(plane_value(plane, point) <= 0 for plane in stage.equations)
+
+
 def _nested(sampled: SampledSet) -> Iterator[bool]:
     for before, after, _, added in _steps(sampled):
-        yield all(plane_value(plane, sampled.points[k]) <= 0 for plane in after.equations for k in before.vertices)
-        yield any(plane_value(plane, sampled.points[added]) > 0 for plane in before.equations)
+        yield all(_contains(after, sampled.points[k]) for k in before.vertices)
+        yield not _contains(before, sampled.points[added])
 
 
 def _equations(sampled: SampledSet) -> Iterator[bool]:
@@ -114,7 +119,7 @@ def _last_hull(sampled: SampledSet) -> Iterator[bool]:
     hull_planes = {facet.plane for facet in sampled.judge.facets}
     stages = sampled.stages()
     for stage in stages:
-        support = all(plane_value(plane, point) <= 0 for plane in stage.equations for point in sampled.points)
+        support = all(_contains(stage, point) for point in sampled.points)
         yield support == ({reduced_plane(plane) for plane in stage.equations} == hull_planes) == (stage is stages[-1])
 
 
@@ -132,7 +137,7 @@ def _contained_points(sampled: SampledSet) -> Iterator[bool]:
         judge = exact_hull([sampled.points[k] for k in stage.vertices])
         corners = {stage.vertices[k] for k in judge.vertices}
         for k, point in enumerate(sampled.points):
-            if k not in corners and all(plane_value(plane, point) <= 0 for plane in stage.equations):
+            if k not in corners and _contains(stage, point):
                 yield k not in sampled.judge.vertices
 
 
@@ -208,7 +213,7 @@ def _renumbering(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _vertices_used(sampled: SampledSet) -> Iterator[bool]:
-    yield {*sampled.judge.vertices} <= {k for stage in sampled.hull.history for k in stage.added}
+    yield {*sampled.judge.vertices} <= {*added_points(sampled.hull)}
 
 
 def _vertex_when_added(sampled: SampledSet) -> Iterator[bool]:
@@ -224,12 +229,9 @@ def _added_triangle(sampled: SampledSet) -> Iterator[bool]:
         (x, y, (-plane[3] - plane[0] * x - plane[1] * y) // plane[2]) for x, y in product(range(-5, 6, 2), repeat=2)
     ]
     for before, after, record, added in _steps(sampled):
-        a, b = (sampled.points[k] for k in before.defining[record.checked - 1])
+        a, b, c = (sampled.points[k] for k in (*before.defining[record.checked - 1], added))
         for point in lattice:
-            in_before, in_after = (
-                max(plane_value(e, point) for e in stage.equations) <= 0 for stage in (before, after)
-            )
-            yield in_after == (in_before or _in_triangle(point, a, b, sampled.points[added]))
+            yield _contains(after, point) == (_contains(before, point) or _in_triangle(point, a, b, c))
 
 
 def _added_tetrahedra(sampled: SampledSet) -> Iterator[bool]:
@@ -241,10 +243,9 @@ def _added_tetrahedra(sampled: SampledSet) -> Iterator[bool]:
         # One tetrahedron stands on each equation that is positive at the new point.
         corners = [[apex, *(sampled.points[k] for k in before.defining[at])] for at in visible]
         for point in lattice:
-            in_before, in_after = (
-                max(plane_value(e, point) for e in stage.equations) <= 0 for stage in (before, after)
+            yield _contains(after, point) == (
+                _contains(before, point) or any(_in_tetrahedron(point, four) for four in corners)
             )
-            yield in_after == (in_before or any(_in_tetrahedron(point, four) for four in corners))
 
 
 def _in_tetrahedron(point: Point, corners: list[Point]) -> bool:

@@ -1,7 +1,7 @@
 """Checks of chapters 1 and 3 as worded: steps of the text compared with the listings, and other ways to start."""
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from itertools import pairwise
 
 from emulator.language.objectcode import Program
@@ -15,7 +15,7 @@ from modern.claims.sampled_sets import (
     CASES,
     SETS,
     Point,
-    SampledSet,
+    added_points,
     counterexample_points,
     flat_and_spatial_sets,
     plane_through,
@@ -23,13 +23,12 @@ from modern.claims.sampled_sets import (
     reduced_plane,
     sampled_sets,
 )
-from modern.claims.thesis.chapter3_boundary import LATTICE_SETS, PYRAMID
+from modern.claims.thesis.chapter3_boundary import LATTICE_SETS, PYRAMID, on_line
 from modern.claims.thesis.chapter3_steps import fourth_point_by_largest, order_of_replacement
 from modern.claims.thesis.chapter4_examples import EXTREMES_IN_A_PLANE
 from modern.edition import programs
-from modern.exact_hull import ExactHull
 from modern.formats.deck import data_deck
-from modern.geometry.vectors import cross, dot, minus
+from modern.geometry.vectors import six_volumes
 from modern.thesis.job import run_hull
 
 Pair = tuple[int, int]
@@ -50,9 +49,9 @@ def text_against_listing() -> Check:
 def line_duplicates_as_printed() -> Check:
     points = counterexample_points("line_lost.csv")
     judge, hull = exact_hull(points), convex_hull(points, history=True)
-    used = [k for stage in hull.history for k in stage.added]
-    remaining = _duplicates_removed_as_worded(points, used, [(d[0], d[1]) for d in hull.history[-1].equations])
-    lines = len({frozenset(_indices_on_line(points, *pair)) for pair in remaining})
+    equations = [(a, b) for a, b in hull.history[-1].equations]
+    remaining = _duplicates_removed_as_worded(points, added_points(hull), equations)
+    lines = len({frozenset(on_line(points, *pair)) for pair in remaining})
     right = len({face.lowest for face in hull.faces}) == len(judge.facets)
     message = f"as worded {lines} of {len(judge.facets)} lines remain; the listing keeps all of them"
     return refuted(lines < len(judge.facets) and right, message)
@@ -68,16 +67,11 @@ def _duplicates_removed_as_worded(
     remaining, vertices = list(equations), list(used)
     for i in used:
         for pair in [*remaining]:
-            if i in vertices and i not in pair and i in _indices_on_line(points, *pair):
+            if i in vertices and i not in pair and i in on_line(points, *pair):
                 remaining.remove(pair)
                 middle = sorted((i, *pair), key=lambda k: points[k])[1]
                 vertices = [k for k in vertices if k != middle]
     return remaining
-
-
-def _indices_on_line(points: Sequence[Point], a: int, b: int) -> list[int]:
-    p, q = points[a], points[b]
-    return [k for k, x in enumerate(points) if not any(cross(minus(q, p), minus(x, p)))]
 
 
 @claim("thesis.103", "thesis.276", full=300)
@@ -165,12 +159,12 @@ def order_of_elimination(cases: int = CASES) -> Check:
 def first_hull_against_extremes(cases: int = 4) -> Check:
     within, fewer = [], []
     for sampled in sampled_sets(3, cases):
-        first, six_extremes = _volumes_and_planes(sampled.points, sampled)
+        first, six_extremes = _volumes_and_planes(sampled.points)
         fewer.append(first[1] <= six_extremes[1] or not six_extremes[1])
         if {sampled.points[k] for k in sampled.hull.history[0].added} <= {*_extreme_points(sampled.points)}:
             within.append(six_extremes[0] - first[0])
-    flat = [_volumes_and_planes(points, None) for points in EXTREMES_IN_A_PLANE]
-    first, six_extremes = _volumes_and_planes(counterexample_points("first_hull.csv"), None)
+    flat = [_volumes_and_planes(points) for points in EXTREMES_IN_A_PLANE]
+    first, six_extremes = _volumes_and_planes(counterexample_points("first_hull.csv"))
     passed = [volume >= 0 for volume in within] + [any(within), *fewer]
     larger = all(own[0] > of_six[0] == 0 for own, of_six in flat) and first[0] > six_extremes[0] > 0
     message = (
@@ -181,14 +175,14 @@ def first_hull_against_extremes(cases: int = 4) -> Check:
     return searched(SETS[3], cases, passed, message).unless(larger, case)
 
 
-def _volumes_and_planes(points: Sequence[Point], sampled: SampledSet | None) -> tuple[tuple[int, int], tuple[int, int]]:
+def _volumes_and_planes(points: Sequence[Point]) -> tuple[tuple[int, int], tuple[int, int]]:
     """Return six times the volume and the number of planes of H_1 and of the hull of the six extreme points."""
-    hull = sampled.hull if sampled else convex_hull(points, history=True)
-    first = [points[k] for k in hull.history[0].added]
+    first = [points[k] for k in convex_hull(points, history=True).history[0].added]
     measures = []
     for some in (first, _extreme_points(points)):
         judge = exact_hull(some)
-        measures.append((_volume(some, judge), len(judge.facets) if judge.dimension == 3 else 0))
+        faces = [facet.polygon for facet in judge.facets] if judge.dimension == 3 else []
+        measures.append((six_volumes(some, faces), len(faces)))
     return measures[0], measures[1]
 
 
@@ -196,14 +190,3 @@ def _extreme_points(points: Sequence[Point]) -> list[Point]:
     """Return the extreme points of a set; of several equal ones the last, as in program 1 (statements 134 to 146)."""
     extreme = {choose(reversed(points), key=lambda p, k=k: p[k]) for choose in (min, max) for k in range(3)}  # type: ignore[misc]
     return [point for point in points if point in extreme]
-
-
-def _volume(points: Sequence[Point], judge: ExactHull) -> int:
-    return sum(_cone_volumes(points, judge)) if judge.dimension == 3 else 0
-
-
-def _cone_volumes(points: Sequence[Point], judge: ExactHull) -> Iterator[int]:
-    apex = points[0]
-    for facet in judge.facets:
-        p, *rest = (minus(points[k], apex) for k in facet.polygon)
-        yield sum(abs(dot(p, cross(q, r))) for q, r in pairwise(rest))

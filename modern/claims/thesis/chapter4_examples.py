@@ -14,7 +14,7 @@ from itertools import product
 from emulator.machine.result import Options
 from modern.claims.evidence import Check, claim, exhibited, slip
 from modern.claims.hulls import convex_hull, exact_hull
-from modern.claims.sampled_sets import counterexample
+from modern.claims.sampled_sets import added_points, counterexample
 from modern.comparison.difference import disagreement
 from modern.comparison.outcome import Outcome, Vector, from_cards, from_judge
 from modern.edition import programs
@@ -102,7 +102,7 @@ def _points(theorem: Theorem) -> Check:
     names = known.keys() | ({*theorem.lost} & {*theorem.extremes.values()})
     first = theorem.points[0].name[0]
     is_complete = names == {f"{first}{k}" for k in range(1, _NUMBERS[number] + 1)}
-    is_spatial = exact_hull([*map(list, known.values())]).dimension == len("xyz")
+    is_spatial = exact_hull(known.values()).dimension == len("xyz")
     lost = f", and names {', '.join(theorem.lost)}, which the OCR lost" if theorem.lost else ""
     message = f"the text states {number} points and prints coordinates of {len(known)} different ones{lost}"
     return exhibited(is_complete and is_spatial and len({*known.values()}) == len(known), message)
@@ -166,7 +166,7 @@ def _lost_point(theorem: Theorem) -> Check:
 
 
 def _faces(points: Sequence[Vector]) -> set[Vector]:
-    hull = exact_hull([*map(list, points)])
+    hull = exact_hull(points)
     return {scaled(tuple(Fraction(c) for c in hull.plane_of(facet)), True) for facet in hull.facets}
 
 
@@ -191,7 +191,7 @@ def points_of_h_5() -> tuple[str, ...]:
 
 def _growing(theorem: Theorem) -> Check:
     points = [_point(theorem, name).at for name in points_of_h_5()]
-    vertices = [len(exact_hull([*map(list, points[:n])]).vertices) for n in range(4, 9)]
+    vertices = [len(exact_hull(points[:n]).vertices) for n in range(4, 9)]
     return exhibited(vertices == [4, 5, 6, 7, 8], f"H_1 to H_5 have {', '.join(map(str, vertices))} vertices")
 
 
@@ -216,7 +216,7 @@ def _programs(theorem: Theorem, load: Load) -> Check:
     points: list[Vector] = [tuple(map(Fraction, point)) for point in truncated_points]
     deck = data_deck([list(map(str, point)) for point in truncated_points], "theorem")
     is_exact = all(card_point == point.at for card_point, point in zip(points, theorem.points, strict=True))
-    judge = from_judge(exact_hull([*map(list, points)]), points)
+    judge = from_judge(exact_hull(points), points)
     outcome = from_cards("listing", run_hull(deck, load, Options(limit=200_000)), points)
     agrees = outcome.determined and disagreement(outcome, judge, points).agrees
     description = "the printed points" if is_exact else "the points truncated to eight digits"
@@ -231,14 +231,14 @@ def procedure_of_4_8() -> Check:
     theorem = theorem_of("4.8")
     points = [point.at for point in theorem.points]
     hull = convex_hull(points, history=True)
-    used = [theorem.points[k].name for stage in hull.history for k in stage.added]
+    used = [theorem.points[k].name for k in added_points(hull)]
     same = [set(used[:n]) == set(points_of_h_5()[:n]) for n in range(4, 9)]
     as_worded = convex_hull(points, text=True, on_refusal="return")
     outside_six = same[-1] and used[8:] == ["Q9"] and hull.history[-1].outside == 6
     at = {point.name: point for point in theorem.points}
     farthest = []
     for n, name in enumerate(points_of_h_5()[4:], 4):
-        judge = exact_hull([[*at[before].at] for before in points_of_h_5()[:n]])
+        judge = exact_hull(at[before].at for before in points_of_h_5()[:n])
         planes = [Plane(0, tuple(map(Fraction, judge.plane_of(facet))), (), "", "") for facet in judge.facets]
         farthest.append(any(0 < plane.at(at[name]) == max(map(plane.at, theorem.points)) for plane in planes))
     right = outside_six and [same[0], same[1], same[4]] == [True] * 3 and all(farthest)

@@ -10,7 +10,6 @@ from modern.claims.algebra import (
     Point,
     Polynomial,
     Step,
-    Term,
     not_negative,
     point,
     polynomial,
@@ -140,9 +139,8 @@ def lines_of_figure_3() -> Check:
 def outside_of_two_lines() -> Check:
     x, y = variables("x y")
     _, second, third = _values(x, y)
-    signs = {"order": positive(Y2 - Y1), "line 2": positive(second), "line 3": positive(third)}
-    terms = tuple(Term((name,), polynomial(1)) for name in ("line 2", "line 3"))
-    step = Step("x is negative", signs, positive(-x), terms, ("order",))
+    signs = {"order": positive(Y2 - Y1), "second": positive(second), "third": positive(third)}
+    step = Step("x is negative", signs, positive(-x), (term("second"), term("third")), ("order",))
     return proved("The values of lines 2 and 3 add up to (y_1 - y_2) x", [step.is_valid()], "x is negative")
 
 
@@ -163,12 +161,12 @@ def outside_of_line_1() -> Check:
         # The triangle P_1 P_2 P_3 is counterclockwise; P_2 P_1 P_3, with the origin at P_2, is clockwise.
         signs = {
             "area": positive(sign * (x2 * y3 - x3 * y2)),
-            "line 1": positive(-sign * (x2 * y - x * y2)),
-            "other line": positive(sign * (x3 * y - x * y3)),
+            "first": positive(-sign * (x2 * y - x * y2)),
+            "other": positive(sign * (x3 * y - x * y3)),
             "end": positive(-sign * x2),
             "third": not_negative(-sign * x3),
         }
-        certificate = (Term(("end", "other line"), polynomial(1)), Term(("third", "line 1"), polynomial(1)))
+        certificate = (term("end other"), term("third first"))
         steps.append(Step("the point is beyond the corner", signs, positive(sign * x), certificate, ("area",)))
     argument = "A point outside both lines is beyond their corner, at which x is largest or smallest of all points"
     return proved(argument, (step.is_valid() for step in steps), "no point is outside both lines")

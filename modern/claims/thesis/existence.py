@@ -9,6 +9,7 @@ from itertools import combinations, product
 from modern.claims.evidence import Check, claim, proved
 from modern.claims.hulls import convex_hull, exact_hull
 from modern.claims.invariants import is_sphere
+from modern.claims.sampled_sets import added_points
 from modern.claims.thesis.chapter4_examples import points_of_h_5, theorem_of
 from modern.edition.chapter4 import Point
 from modern.geometry.vectors import cross, dot, minus
@@ -115,7 +116,7 @@ def outside_several_planes() -> Iterator[bool]:
     theorem = theorem_of("4.8")
     points = [point.at for point in theorem.points]
     hull = convex_hull(points, history=True)
-    used = [k for stage in hull.history for k in stage.added]
+    used = added_points(hull)
     yield [theorem.points[k].name for k in used[8:]] == ["Q9"]
     yield {theorem.points[k].name for k in used[:8]} == {*points_of_h_5()}
     # The exact hull of the first eight points is computed without the procedure.
