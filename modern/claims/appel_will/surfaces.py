@@ -153,15 +153,21 @@ def surface_of_star() -> Check:
     return least_surface().check().unless(surface < around, case)
 
 
+# The base of a pyramid: a hexagon with two concave points.
+HOURGLASS: tuple[Point, ...] = ((-4, -4, 0), (0, -1, 0), (4, -4, 0), (4, 4, 0), (0, 1, 0), (-4, 4, 0))
+
+
 @claim("appel-will.73")
 def two_inside_corners() -> Check:
-    solid = crown()
-    vertices = {*exact_hull(solid.points).vertices}
-    preprocessed = preprocess(solid.points, solid.surfaces, "two")
-    at = Counter(end for corner in preprocessed.inside for end in corner.line.ends)
-    wrong = [k for k, count in at.items() if count >= 2 and k in vertices]
-    points = ", ".join(f"point {k + 1} of the crown, a vertex of the hull on {at[k]} inside corners" for k in wrong)
-    return outside_corners().check().unless(wrong, points)
+    count = len(HOURGLASS)
+    surfaces = (tuple(range(count))[::-1], *((a, b, count) for a, b in sides(range(count))))
+    points = (*HOURGLASS, (0, 0, 4))
+    at = Counter(end for corner in preprocess(points, surfaces, "two").inside for end in corner.line.ends)
+    refutes = at[count] == 2 and count in exact_hull(points).vertices
+    case = (
+        "the apex of a pyramid on a hexagon with two concave points: a vertex of the hull on exactly 2 inside corners"
+    )
+    return outside_corners().check().unless(refutes, case)
 
 
 @claim("appel-will.152")

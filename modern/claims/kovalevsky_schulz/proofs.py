@@ -1,6 +1,7 @@
 """Proofs of lemmas LZ, CH and BE of Kovalevsky and Schulz; :mod:`modern.claims.algebra` checks the steps."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from modern.claims.algebra import (
     Proof,
@@ -170,7 +171,8 @@ def formula_4() -> Check:
     # A point beyond the edge of the cube with corners from 0 to 2 that is between the faces x = 2 and z = 0.
     visible, hidden, edge, new = (1, 0, 0), (0, 0, -1), (2, 1, 0), (4, 1, 0)
     a, b = -vectors.dot(hidden, vectors.minus(new, edge)), vectors.dot(visible, vectors.minus(new, edge))
-    return lemma_be().check().unless(a == 0 < b, f"{new}, in the plane of a face of a cube: a is 0")
+    proof = replace(lemma_be(), theorem="the outward normal of the plane is a N_v + b N_n with positive a and b")
+    return proof.check().unless(a == 0 < b, f"{new}, in the plane of a face of a cube: a is 0")
 
 
 @claim("kovalevsky-schulz.146", "yau-srihari.17")
