@@ -1,6 +1,6 @@
 """Checks of Nakamae and Nishita on whole drawings: scenes of boxes, compared with rays from points towards the eye."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
@@ -12,6 +12,7 @@ from modern.claims.hulls import exact_hull
 from modern.claims.nakamae_nishita.tables import overlap
 from modern.claims.sampled_sets import CASES, SETS, Point, sampled_sets
 from modern.drawing.visible import CONTOUR, INNER
+from modern.exact_hull import ExactHull
 from modern.papers.nakamae_nishita.hidden import Drawing, Piece, draw
 from modern.papers.nakamae_nishita.nearness import BY_CROSSING, BY_FACE
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron, checked
@@ -65,7 +66,7 @@ NESTED: Generator[tuple[Box, ...]] = Generator(
 )
 
 
-def _polyhedra(boxes: tuple[Box, ...], thing: str = "") -> list[Polyhedron]:
+def polyhedra(boxes: tuple[Box, ...], thing: str = "") -> list[Polyhedron]:
     made = []
     for low, high in boxes:
         size = [Fraction(b - a) for a, b in zip(low, high, strict=True)]
@@ -100,7 +101,7 @@ def samples(drawing: Drawing) -> Iterator[tuple[Piece, list[Fraction]]]:
 
 @cache
 def _drawn(boxes: tuple[Box, ...]) -> Drawing:
-    return draw(_polyhedra(boxes), parallel(EYE), hidden=True)
+    return draw(polyhedra(boxes), parallel(EYE), hidden=True)
 
 
 @cache
@@ -123,13 +124,18 @@ DIRECTIONS: tuple[Point, ...] = ((1, 401, 401**2), (-(401**2), 1, 401), (401, -(
 SHARE = 10**8
 
 
+def polyhedron_of(points: Sequence[Point], judge: ExactHull) -> Polyhedron:
+    vertices = tuple(tuple(map(Fraction, points[k])) for k in judge.vertices)
+    rings = tuple(tuple(map(judge.vertices.index, facet.polygon)) for facet in judge.facets)
+    return checked(Polyhedron("hull", vertices, rings))  # type: ignore[arg-type]
+
+
 @claim("nakamae-nishita.11", full=200)
 def edges_that_can_be_visible(cases: int = CASES) -> Check:
     outcomes, hidden = [], 0
     for sampled in sampled_sets(3, cases):
         points = [sampled.points[k] for k in sampled.judge.vertices]
-        rings = tuple(tuple(map(sampled.judge.vertices.index, facet.polygon)) for facet in sampled.judge.facets)
-        hull = checked(Polyhedron("hull", tuple((Fraction(x), Fraction(y), Fraction(z)) for x, y, z in points), rings))
+        hull = polyhedron_of(sampled.points, sampled.judge)
         # Coordinates are multiplied by twice SHARE, so that midpoints and the points next to them have integers.
         enlarged = [tuple(2 * SHARE * c for c in point) for point in points]
         for way in DIRECTIONS:
@@ -203,7 +209,7 @@ def divided_box(cases: int = 2) -> Check:
         halves: tuple[Box, ...] = (((0, 0, 0), (cut, y, z)), ((cut, 0, 0), (x, y, z)))
         scenes = (halves, "box"), (halves, ""), ((((0, 0, 0), (x, y, z)),), "")
         together, apart, whole = (
-            _visible_length(draw(_polyhedra(boxes, thing), parallel(EYE))) for boxes, thing in scenes
+            _visible_length(draw(polyhedra(boxes, thing), parallel(EYE))) for boxes, thing in scenes
         )
         return together == whole < apart
 

@@ -3,23 +3,26 @@
 A table has the side of each line of one contour on which each vertex of the other contour lies.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import cache
-from itertools import combinations, pairwise, product
+from itertools import combinations, product
 from random import Random
 
 from modern.claims import algebra
+from modern.claims.appel_will.convexity import area
 from modern.claims.evidence import Check, Generator, claim, identity, proved, searched
 from modern.claims.hulls import exact_hull
 from modern.claims.sampled_sets import CASES, SETS, Point, sampled_sets
 from modern.drawing.visible import line_through, sign, value
+from modern.geometry.mesh import sides
 from modern.geometry.vectors import dot
 from modern.papers.nakamae_nishita.contours import Tables, values
 from modern.papers.nakamae_nishita.crossings import CLEAR, clipped
 from modern.papers.nakamae_nishita.solids import height, plane_through
 
 Place = tuple[int, int]
+Rows = Sequence[Sequence[int]]
 
 SQUARE: tuple[Place, ...] = ((0, 0), (0, 4), (4, 4), (4, 0))
 WITHIN: tuple[Place, ...] = ((1, 1), (1, 3), (3, 3), (3, 1))
@@ -34,7 +37,7 @@ def flat(places: tuple[Place, ...]) -> list[tuple[int, int, int]]:
 
 def lines_of(places: tuple[Place, ...]) -> list[tuple[int, int, int]]:
     corners = flat(places)
-    return [line_through(a, b) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)]
+    return [line_through(a, b) for a, b in sides(corners)]
 
 
 def tables_of(v: tuple[Place, ...], w: tuple[Place, ...]) -> tuple[list[list[int]], list[list[int]]]:
@@ -66,16 +69,14 @@ def pairs(count: int = CASES) -> Iterator[tuple[tuple[Place, ...], tuple[Place, 
 
 def inside(p: Place, v: tuple[Place, ...]) -> bool:
     """Return True if the triangles of a point with the sides of a convex polygon have the area of the polygon."""
-    return sum(abs(_area(p, a, b)) for a, b in pairwise((*v, v[0]))) == abs(
-        sum(_area(v[0], a, b) for a, b in pairwise(v))
-    )
+    return sum(abs(area(p, a, b)) for a, b in sides(v)) == abs(sum(area(v[0], a, b) for a, b in sides(v)))
 
 
 def overlap(v: tuple[Place, ...], w: tuple[Place, ...]) -> bool:
     """Return True if the hulls of two sets have common inner points: 0 is an inner point of the hull of differences."""
     differences = sorted({(q[0] - p[0], q[1] - p[1], 0) for p in v for q in w})
     ring = [differences[k][:2] for k in exact_hull(differences).polygon]
-    return all(_area((0, 0), a, b) > 0 for a, b in pairwise((*ring, ring[0])))
+    return all(area((0, 0), a, b) > 0 for a, b in sides(ring))
 
 
 # A pyramid over an upright pentagon that is seen edge-on along z.
@@ -93,15 +94,15 @@ def convex_contour(cases: int = CASES) -> Check:
         values = [dot(face.plane[:3], (-u, -v, 1)) for face in judge.facets]
         # A directed edge of a front face is on the contour if its reverse belongs to no front face.
         front = [face.polygon for face, face_value in zip(judge.facets, values, strict=True) if face_value > 0]
-        sides = {(a, b) for ring in front for a, b in zip(ring, (*ring[1:], ring[0]), strict=True)}
-        after = {b: a for a, b in sides if (b, a) not in sides}
+        edges = {edge for ring in front for edge in sides(ring)}
+        after = {b: a for a, b in edges if (b, a) not in edges}
         ring = [min(after)]
         while len(ring) < len(after) and after[ring[-1]] != ring[0]:
             ring.append(after[ring[-1]])
         contour = [images[k] for k in ring]
         turns = [side(contour[k - 2], contour[k - 1], contour[k]) for k in range(len(contour))]
         checks.append(len(ring) == len(after) and {*turns} <= {-1, 0} and (0 in values or 0 not in turns))
-        checks.append(all(side(p, q, image) <= 0 for p, q in pairwise((*contour, contour[0])) for image in images))
+        checks.append(all(side(p, q, image) <= 0 for p, q in sides(contour) for image in images))
         straight += turns.count(0)
     message = f"the contours of {len(checks) // 2} hulls are convex and clockwise; one hull has a face seen edge-on"
     return searched(SETS[3], 1 + cases, [*checks, straight], message)
@@ -112,7 +113,7 @@ def correlations(cases: int = CASES) -> Check:
     checks, counts = [], dict.fromkeys(("apart", "encloses", "partly"), 0)
     for v, w in pairs(cases):
         encloses = any(all(inside(p, a) for p in b) for a, b in ((v, w), (w, v)))
-        of_w = [values(lines_of(w), [(*a, 0, 1), (*b, 0, 1)]) for a, b in pairwise((*v, v[0]))]
+        of_w = [values(lines_of(w), [(*a, 0, 1), (*b, 0, 1)]) for a, b in sides(v)]
         # A part of a side of V is inside V', but neither of the two polygons is.
         partly = any(ends is not None and clipped(ends, 0, 1) != CLEAR for ends in of_w) and not encloses
         relations = {"apart": not overlap(v, w), "encloses": encloses, "partly": partly}
@@ -180,13 +181,12 @@ def formula_5() -> Check:
 def numbers_of_meetings(v: tuple[Place, ...], w: tuple[Place, ...]) -> list[tuple[int, int]]:
     """Return, for each pair of segments of two contours, formula (3) and the value that their position requires."""
     tables, meetings = tables_by_2(v, w), []
-    for i, j in product(range(len(v)), range(len(w))):
-        a, b, c, d = v[i], v[(i + 1) % len(v)], w[j], w[(j + 1) % len(w)]
+    for (i, (a, b)), (j, (c, d)) in product(enumerate(sides(v)), enumerate(sides(w))):
         # Section 3.2: -4 for a crossing, -2 for a vertex on a segment, -1 for a common vertex, else 0.
         touching = [p for p in {a, b} if between(c, d, p)] + [p for p in {c, d} if between(a, b, p)]
         in_line = side(a, b, c) == side(a, b, d) == 0
         same = {a, b} & {c, d}
-        expected = 0 if in_line else -1 if same else -2 if touching else -4 if crosses(v, i, w, j) else 0
+        expected = 0 if in_line else -1 if same else -2 if touching else -4 if crosses(a, b, c, d) else 0
         meetings.append((tables.crossing_number(i, j), expected))
     return meetings
 
@@ -201,16 +201,12 @@ def between(p: Place, q: Place, r: Place) -> bool:
     return side(p, q, r) == 0 and along <= 0
 
 
-def _area(p: Place, q: Place, r: Place) -> int:
-    return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
-
-
 def side(p: Place, q: Place, r: Place) -> int:
-    return sign(_area(p, q, r))
+    return sign(area(p, q, r))
 
 
-def crosses(v: tuple[Place, ...], i: int, w: tuple[Place, ...], j: int) -> bool:
-    a, b, c, d = v[i], v[(i + 1) % len(v)], w[j], w[(j + 1) % len(w)]
+def crosses(a: Place, b: Place, c: Place, d: Place) -> bool:
+    """Return True if the segments a b and c d cross at a point that is no end of either."""
     return side(a, b, c) * side(a, b, d) == -1 == side(c, d, a) * side(c, d, b)
 
 
@@ -223,16 +219,12 @@ def table_properties(number: str, cases: int = CASES) -> Check:
     checks, touching = [], False
     for v, w in pairs(cases):
         pl, lp = tables_of(v, w)
-        tables = tables_by_2(v, w)
-        if number != "LP":
-            met = [[tables.crossing_number(i, j) for j in range(len(w))] for i in range(len(v))]
-            property_checks, touches = _property(number, v, w, [*zip(*pl, strict=True)], met)
-            checks += property_checks
-            touching |= touches
-            continue
-        met = [[tables.crossing_number(i, j) for i in range(len(v))] for j in range(len(w))]
-        for property_number in "1234":
-            property_checks, touches = _property(property_number, w, v, [(*row,) for row in lp], met)
+        d = tables_by_2(v, w).crossing_number
+        met = [[d(i, j) for j in range(len(w))] for i in range(len(v))]
+        of_pl, of_lp = (v, w, [*zip(*pl, strict=True)], met), (w, v, lp, [*zip(*met, strict=True)])
+        # ``LP`` is about all four properties of the table LP.
+        for property_number in "1234" if number == "LP" else number:
+            property_checks, touches = _property(property_number, *(of_lp if number == "LP" else of_pl))
             checks += property_checks
             touching |= touches
     check = searched(POLYGONS, 2 * cases, checks, f"true for {len(checks)} cases")
@@ -240,7 +232,7 @@ def table_properties(number: str, cases: int = CASES) -> Check:
 
 
 def _property(
-    number: str, v: tuple[Place, ...], w: tuple[Place, ...], of_lines: list[tuple[int, ...]], met: list[list[int]]
+    number: str, v: tuple[Place, ...], w: tuple[Place, ...], of_lines: Rows, met: Rows
 ) -> tuple[list[bool], bool]:
     """Return the results for one pair of polygons, and True if lines without an intersection touch the other polygon.
 
@@ -253,8 +245,8 @@ def _property(
     if number == "4":
         return [(-1 not in at) == inside(p, v) for at, p in zip(zip(*of_lines, strict=True), w, strict=True)], False
     clear = [i for i, line in enumerate(of_lines) if -1 not in line]
-    crossed = [any(crosses(v, i, w, j) for j in range(len(w))) for i in clear]
-    return [not has_crossing for has_crossing in crossed], any(any(met[i]) for i in clear)
+    crossed = [any(crosses(*side_of_v, *side_of_w) for side_of_w in sides(w)) for side_of_v in sides(v)]
+    return [not crossed[i] for i in clear], any(any(met[i]) for i in clear)
 
 
 @claim("nakamae-nishita.41", full=25)
@@ -263,8 +255,7 @@ def intersection_counts(cases: int = CASES) -> Check:
     for v in polygons(cases):
         for a, b in combinations([(x, y) for x in (-3, 0, 2, 4) for y in (-2, 0, 3, 4)], 2):
             places, by_3 = set(), 0
-            for i, line in enumerate(lines_of(v)):
-                p, q = v[i], v[(i + 1) % len(v)]
+            for line, (p, q) in zip(lines_of(v), sides(v), strict=True):
                 at_a, at_b = value(line, (*a, 1)), value(line, (*b, 1))
                 if at_a == at_b == 0:
                     axis = int(p[0] == q[0])

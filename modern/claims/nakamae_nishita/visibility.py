@@ -3,7 +3,7 @@
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
-from itertools import combinations, pairwise, permutations, product
+from itertools import combinations, permutations, product
 from operator import eq
 from random import Random
 
@@ -11,7 +11,14 @@ from modern.claims import algebra
 from modern.claims.evidence import Check, Generator, claim, exhibited, proved, refuted, searched, slip
 from modern.claims.hulls import exact_hull
 from modern.claims.invariants import counts_in_table_1
-from modern.claims.nakamae_nishita.drawings import NESTED, order_on_lines_of_sight, pieces_against_rays, samples
+from modern.claims.nakamae_nishita.drawings import (
+    NESTED,
+    order_on_lines_of_sight,
+    pieces_against_rays,
+    polyhedra,
+    polyhedron_of,
+    samples,
+)
 from modern.claims.nakamae_nishita.tables import (
     POLYGONS,
     SQUARE,
@@ -25,7 +32,8 @@ from modern.claims.nakamae_nishita.tables import (
 )
 from modern.claims.sampled_sets import CASES, SETS, Point, counterexample, counterexample_points
 from modern.drawing.visible import CONTOUR, INNER, line_through, sign, value
-from modern.geometry.vectors import dot, minus
+from modern.geometry.mesh import sides
+from modern.geometry.vectors import dot, minus, plus
 from modern.papers.nakamae_nishita.contours import values
 from modern.papers.nakamae_nishita.crossings import CLEAR, ENCLOSED, Passage, as_printed, clipped
 from modern.papers.nakamae_nishita.hidden import Drawing, draw
@@ -33,7 +41,6 @@ from modern.papers.nakamae_nishita.nearness import BY_CROSSING
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron, checked
 from modern.papers.nakamae_nishita.projection import parallel
 from modern.papers.nakamae_nishita.scenes import parse
-from modern.papers.nakamae_nishita.shapes import cuboid, moved, placed
 
 
 def _draw_view(random: Random) -> tuple[tuple[Point, ...], Point]:
@@ -64,14 +71,12 @@ _CORNERS: tuple[Point, ...] = tuple((x, y, z) for x in (0, 2) for y in (0, 3) fo
 
 def _is_classified(points: tuple[Point, ...], way: Point) -> bool:
     judge = exact_hull(points)
-    vertices = tuple(tuple(map(Fraction, points[k])) for k in judge.vertices)
-    rings = tuple(tuple(map(judge.vertices.index, facet.polygon)) for facet in judge.facets)
-    (solid,) = draw([checked(Polyhedron("hull", vertices, rings))], parallel(way)).solids  # type: ignore[arg-type]
-    front = [{*face} for face, facet in zip(rings, judge.facets, strict=True) if dot(facet.plane[:3], way) > 0]
+    (solid,) = draw([polyhedron_of(points, judge)], parallel(way)).solids
+    front = [{*map(judge.vertices.index, f.polygon)} for f in judge.facets if dot(f.plane[:3], way) > 0]
     kinds = {frozenset((edge.start, edge.end)): edge.kind for edge in solid.edges}
     counts = {ends: sum(ends <= face for face in front) for ends in kinds}
     right = all((kinds[e] == INNER, kinds[e] == CONTOUR) == (n == 2, n == 1) for e, n in counts.items())
-    ring = {frozenset(ends) for ends in pairwise((*solid.contour, solid.contour[0]))}
+    ring = {frozenset(ends) for ends in sides(solid.contour)}
     return right and len(kinds) == len(judge.edges()) and ring == {e for e, kind in kinds.items() if kind == CONTOUR}
 
 
@@ -92,9 +97,7 @@ def order_of_invisibility(cases: int = 3) -> Check:
 
 
 def _two_boxes(at: tuple[int, int, int]) -> Drawing:
-    boxes = [cuboid("box", *map(Fraction, (2, 2, 2)))] * 2
-    second = placed(boxes[1], moved((Fraction(at[0]), Fraction(at[1]), Fraction(at[2]))), "second box")
-    return draw([boxes[0], second], parallel((2, -3, 1)), hidden=True)
+    return draw(polyhedra((((0, 0, 0), (2, 2, 2)), (at, plus(at, (2, 2, 2))))), parallel((2, -3, 1)), hidden=True)
 
 
 @cache
@@ -117,36 +120,27 @@ def _hidden(drawing: Drawing, kind: str) -> int:
 _ENDS: tuple[Place, ...] = tuple((x, y) for x in (-3, 1, 2, 8) for y in (-2, 1, 3, 6))
 
 
-@claim("nakamae-nishita.45", full=100)
-@claim("nakamae-nishita.59", index=-1, full=100)
-def indices(index: int = 0, cases: int = 3) -> Check:
-    """Check that the program gives intersections the indices of formula (6), if no corner is on the segment.
-
-    index: with -1, check only that intersections with the index -1 are alone on their segment.
-    """
-    checks, alone = [], set()
-    ways = set()
+@claim("nakamae-nishita.45", "nakamae-nishita.59", full=100)
+def indices(cases: int = 3) -> Check:
+    checks, ways = [], set()
     for v in (SQUARE, *POLYGONS.cases(cases)):
-        sides = [(p, v[(k + 1) % len(v)]) for k, p in enumerate(v)]
         for a, b in permutations(_ENDS, 2):
             if any(between(a, b, p) for p in v):
                 continue
             met = []
-            for k, ((xi, yi), (xj, yj)) in enumerate(sides):
-                if crosses(v, k, (a, b), 0):
+            for line, (p, q) in zip(lines_of(v), sides(v), strict=True):
+                if crosses(p, q, a, b):
                     # Formula (6): the sign of the determinant tells whether the segment enters or leaves.
-                    determinant = (xj - xi) * (a[1] - b[1]) - (yj - yi) * (a[0] - b[0])
-                    at_a, at_b = (value(lines_of(v)[k], (*end, 1)) for end in (a, b))
+                    determinant = (q[0] - p[0]) * (a[1] - b[1]) - (q[1] - p[1]) * (a[0] - b[0])
+                    at_a, at_b = (value(line, (*end, 1)) for end in (a, b))
                     met.append((Fraction(at_a, at_a - at_b), sign(determinant)))
             by_six = tuple((place, len(met) * index) for place, index in sorted(met))
             passage = _passage(v, a, b)
             checks.append(passage.marks == by_six)
-            alone |= {len(met) for _, index in by_six if index == -1}
             ways.add(tuple(index for _, index in passage.marks))
-    expected = {(), (1,), (-1,), (2, -2)}
     message = f"of {len(checks)} segments, some enter with the index 1, leave with -1, or do both with 2 and -2"
-    every_way = ways == expected and (not index or alone == {1})
-    check = searched(_CONTOURS, cases, [*checks, every_way], message)
+    # An intersection with the index -1 is alone on its segment.
+    check = searched(_CONTOURS, cases, [*checks, ways == {(), (1,), (-1,), (2, -2)}], message)
     # The diagonal of the square.
     ends, contour = ((-2, -2, 0, 1), (6, 6, 0, 1)), [(x, y, 0, 1) for x, y in SQUARE]
     diagonal = values(lines_of(SQUARE), ends)
@@ -247,9 +241,8 @@ def overlap_by_neighbours(cases: int = CASES) -> Check:
 def segments_within(cases: int = CASES) -> Check:
     checks, partly_inside = [], 0
     for v, w in pairs(cases):
-        for i, (p, q) in product(range(len(v)), combinations(range(len(w)), 2)):
-            if 1 < q - p < len(w) - 1 and crosses(v, i, (w[p], w[q]), 0):
-                a, b = v[i], v[(i + 1) % len(v)]
+        for (a, b), (p, q) in product(sides(v), combinations(range(len(w)), 2)):
+            if 1 < q - p < len(w) - 1 and crosses(a, b, w[p], w[q]):
                 values_at_w = values(lines_of(w), [(*a, 0, 1), (*b, 0, 1)])
                 checks.append(values_at_w is not None and clipped(values_at_w, 0, 1) != CLEAR)
                 partly_inside += not (inside(a, w) and inside(b, w))
@@ -279,8 +272,7 @@ def nearer_contour_inside(cases: int = 3) -> Check:
         tuple((Fraction(x), Fraction(y), Fraction(z)) for x, y, z in corners),
         ((0, 1, 2, 3), (7, 6, 5, 4), *walls),
     )
-    box = placed(cuboid("box", *map(Fraction, (4, 4, 1))), moved((Fraction(2), Fraction(2), Fraction(4))), "box")
-    drawing = draw([checked(frustum), box], parallel((0, 0, 1)), hidden=True)
+    drawing = draw([checked(frustum), *polyhedra((((2, 2, 4), (6, 6, 5)),))], parallel((0, 0, 1)), hidden=True)
     whole = sum(p == ENCLOSED for edge in drawing.passages if edge.solid == 0 for _, p in edge.behind)
     # A point of the frustum is hidden if its image is inside the square contour of the box, from 2 to 6 in x and y.
     points = [(piece.visible, at) for piece, at in samples(drawing) if piece.solid == 0]

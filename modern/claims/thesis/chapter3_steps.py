@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from itertools import combinations, permutations
+from math import prod
 from operator import ne
 from typing import Any
 
@@ -164,28 +165,28 @@ def fourth_point_by_largest() -> Check:
     return refuted(wrong, message)
 
 
-@claim("thesis.94", subject="planes", full=300)
-@claim("thesis.97", subject="pairs", full=300)
-def visible_planes(subject: str, cases: int = CASES) -> Check:
-    """Check how a step replaces the planes that the new point is outside of.
+@claim("thesis.94", full=300)
+def new_planes(cases: int = CASES) -> Check:
+    checks = []
+    for _, before, after, visible in _visible(cases):
+        # The planes of an edge between two replaced planes are equal, and both are eliminated (page 33).
+        edges = Counter(frozenset(edge) for k in visible for edge in combinations(before.defining[k], 2))
+        remaining = [frozenset(d) for k, d in enumerate(before.defining) if k not in visible]
+        made = [edge | {after.vertices[-1]} for edge, count in edges.items() if count == 1]
+        checks.append(Counter(map(frozenset, after.defining)) == Counter([*remaining, *made]))
+    message = "stages have the planes that the rule makes of the new point and the sides of the replaced planes"
+    return all_hold(SETS[3], cases, checks, message)
 
-    subject: ``planes``, the planes after the step; ``pairs``, two of these planes that have a common edge.
-    """
-    checks: list[bool] = []
+
+@claim("thesis.97", full=300)
+def planes_at_common_edge(cases: int = CASES) -> Check:
+    checks = []
     for sampled, before, after, visible in _visible(cases):
-        new = after.vertices[-1]
-        if subject == "planes":
-            # The planes of an edge between two replaced planes are equal, and both are eliminated (page 33).
-            edges = Counter(frozenset(edge) for k in visible for edge in combinations(before.defining[k], 2))
-            remaining = [frozenset(d) for k, d in enumerate(before.defining) if k not in visible]
-            made = [edge | {new} for edge, count in edges.items() if count == 1]
-            checks.append(Counter(map(frozenset, after.defining)) == Counter([*remaining, *made]))
-        else:
-            shared = _shared(before, visible)
-            checks += [_separated(sampled.points, before, i, m, edge, sampled.points[new]) for i, m, edge in shared]
-    words = "stages have the planes that the rule makes of the new point and the sides of the replaced planes"
-    words = words if subject == "planes" else "pairs of planes have third points on opposite sides"
-    return all_hold(SETS[3], cases, checks, words)
+        for i, m, edge in _shared(before, visible):
+            plane = plane_through(*(sampled.points[k] for k in (*edge, after.vertices[-1])))
+            thirds = [sampled.points[k] for replaced in (i, m) for k in {*before.defining[replaced]} - edge]
+            checks.append(prod(plane_value(plane, third) for third in thirds) < 0)
+    return all_hold(SETS[3], cases, checks, "pairs of planes have third points on opposite sides")
 
 
 def _visible(cases: int) -> Iterator[tuple[SampledSet, Approximation, Approximation, list[int]]]:
@@ -203,7 +204,7 @@ def planes_i_and_m() -> Check:
         j = sampled.stages().index(before)
         pairs += [edge for *_, edge in _shared(before, visible)]
         with_j += [len({*before.defining[i]} & {*before.defining[j]}) == 2 for i, *_ in _shared(before, visible)]
-    right = bool(pairs) and all(len(edge) == 2 for edge in pairs) and visible_planes("pairs").holds
+    right = bool(pairs) and all(len(edge) == 2 for edge in pairs) and planes_at_common_edge().holds
     return slip(all(with_j), right, "i and m", f"{len(pairs)} pairs of planes i and m have two common points")
 
 
@@ -226,13 +227,6 @@ def _shared(before: Approximation, visible: list[int]) -> Iterator[tuple[int, in
         edge = set(before.defining[i]) & set(before.defining[m])
         if len(edge) == 2:
             yield i, m, edge
-
-
-def _separated(points: tuple[Point, ...], before: Approximation, i: int, m: int, edge: set[int], new: Point) -> bool:
-    p, q = (points[k] for k in edge)
-    plane = plane_through(p, q, new)
-    (first_corner,), (second_corner,) = (set(before.defining[k]) - edge for k in (i, m))
-    return plane_value(plane, points[first_corner]) * plane_value(plane, points[second_corner]) < 0
 
 
 # A fourth point is necessary to follow the text (thesis.87).

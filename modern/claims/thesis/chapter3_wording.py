@@ -26,8 +26,8 @@ from modern.claims.sampled_sets import (
 from modern.claims.thesis.chapter3_boundary import LATTICE_SETS, PYRAMID, on_line
 from modern.claims.thesis.chapter3_steps import fourth_point_by_largest, order_of_replacement
 from modern.claims.thesis.chapter4_examples import EXTREMES_IN_A_PLANE
+from modern.claims.thesis.chapter7 import deck_with
 from modern.edition import programs
-from modern.formats.deck import data_deck
 from modern.geometry.vectors import six_volumes
 from modern.thesis.job import run_hull
 
@@ -140,14 +140,13 @@ def netc_in_listings() -> Check:
 def order_of_elimination(cases: int = CASES) -> Check:
     in_order, hulls = [], 0
     for sampled in flat_and_spatial_sets(cases):
-        deck = data_deck([[*map(str, point)] for point in sampled.points], "sampled")
         steps: list[str] = []
 
         def watch(program: Program, machine: Machine, steps: list[str] = steps) -> None:
             labels = _ELIMINATE_CHECK_GROW.get(program.source, {})
             machine.tracer = lambda line, _: steps.append(labels[line.label]) if line.label in labels else None
 
-        run_hull(deck, programs.program, Options(limit=100_000), watch=watch)
+        run_hull(deck_with(sampled.points), programs.program, Options(limit=100_000), watch=watch)
         # The last hull is not tested if no point remains, and a run can end with an error after a new point.
         in_order.append(re.fullmatch("(EC+G)*(EC*)?", "".join(steps)))
         hulls += steps.count("E")

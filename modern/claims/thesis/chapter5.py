@@ -22,7 +22,9 @@ from modern.claims.thesis.chapter3_wording import line_duplicates_as_printed
 from modern.claims.thesis.chapter7 import (
     PLACES,
     deck_of,
+    deck_with,
     entries_of_plane_table,
+    points_on,
     run_of,
     two_kinds_of_error,
     typed,
@@ -32,7 +34,6 @@ from modern.comparison.difference import disagreement
 from modern.comparison.outcome import from_card_hull, from_judge
 from modern.edition import programs
 from modern.edition.chapter6 import EXAMPLES, Print, input_deck, prints
-from modern.formats.deck import data_deck, exact_points
 from modern.thesis.cards import read_hull
 from modern.thesis.job import COPLANAR, HullRun, run_hull
 
@@ -46,7 +47,7 @@ _SPACE = ((1, 2, 3), (2, 1, 5), (4, 4, 1), (3, 9, 2), (7, 1, 1))
 def error_in_program(cases: int = CASES) -> Check:
     names = ("throughc.deck", "zeroplane.deck")
     ended = [typed(run_of(name)).endswith("ERROR IN PROGRAM") for name in names]
-    hulls = [convex_hull([*exact_points(deck_of(name))[0].values()]) for name in names]
+    hulls = [convex_hull(points_on(deck_of(name))) for name in names]
     message = (
         "in exact arithmetic, the corrected procedure never ends with the message; program 3 types it for "
         f"{names[0]}, whose hull needs the correction {', '.join(hulls[0].corrected)}"
@@ -75,7 +76,7 @@ def _first_run(exponent: str) -> HullRun:
 def points_are_coplanar(cases: int = CASES) -> Check:
     checks = []
     for sampled in flat_and_spatial_sets(cases):
-        run = run_hull(data_deck([[*map(str, point)] for point in sampled.points], "sampled"), programs.program)
+        run = run_hull(deck_with(sampled.points), programs.program)
         checks.append((COPLANAR in run.steps[0].result.typed) == bool(sampled.flat))
     message = f"in {sum(checks)} of {len(checks)} runs, program 1 types the message exactly if the set is flat"
     typed_coplanar = [COPLANAR in _first_run(exponent).steps[0].result.typed for exponent in ("E+01", "E-17")]
@@ -126,7 +127,7 @@ def line_table_size() -> Check:
 def printed_hulls(examples: Iterable[int] = EXAMPLES) -> Check:
     checks = []
     for example in examples:
-        points = [tuple(map(Fraction, point)) for point in exact_points(input_deck(example))[0].values()]
+        points = points_on(input_deck(example))
         last = [result for result in prints(example) if result.device == "punch"][-1]
         hull = read_hull(last.lines)
         outcome = from_card_hull("print", f"program{last.program}", hull, points)
@@ -186,7 +187,7 @@ def _heading(item: object) -> str:
 
 @claim("thesis.279", "thesis.160", "thesis.162")
 def first_card() -> Check:
-    deck = data_deck([["1", "2", "3"]] * 8, "eight")
+    deck = deck_with([(1, 2, 3)] * 8)
     cards = [card.text.rstrip() for card in deck.cards]
     listing = programs.deck("program1").text()
     passed = cards[0] in (" 8", "08") and len(cards) == 9 and "READ 1,N" in listing and "1 FORMAT (I2)" in listing
@@ -224,11 +225,10 @@ def procedure_in_exact_arithmetic(dimensions: tuple[int, ...], cases: int = CASE
         wrong.append(not rule().holds)
         case += f"; by the rule of {words}"
     if 3 in dimensions:
-        last_pair = data_deck([[*map(str, point)] for point in _LAST_PAIR], "six points")
-        faults = {"P3-025": last_pair, "P3-026": deck_of("cube.deck"), "P3-027": deck_of("throughc.deck")}
+        faults = {"P3-025": deck_with(_LAST_PAIR), "P3-026": deck_of("cube.deck"), "P3-027": deck_of("throughc.deck")}
         for row, deck in faults.items():
             is_typed = typed(run_hull(deck, programs.program)).endswith("ERROR IN PROGRAM")
-            wrong.append(is_typed and convex_hull([*exact_points(deck)[0].values()]).corrected == (row,))
+            wrong.append(is_typed and convex_hull(points_on(deck)).corrected == (row,))
         case += f"; and by program 3 as listed, which types ERROR IN PROGRAM for sets that need {', '.join(faults)}"
     return procedure_against_judge(dimensions, cases).unless(all(wrong), case)
 
@@ -256,7 +256,7 @@ def _translated(name: str) -> Program:
 
 @claim("thesis.194")
 def storage_of_translation() -> Check:
-    deck = data_deck([["0", "0", "0"], ["1", "0", "0"], ["0", "1", "0"], ["0", "0", "1"]], "four")
+    deck = deck_with([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)])
     Machine(programs.program("program3"), deck, Options())
     try:
         Machine(_translated("program3"), deck, Options())
@@ -295,8 +295,8 @@ def total_of_translation() -> Check:
 
 @claim("thesis.192")
 def points_moved_back() -> Check:
-    points = [("1", "2", "3"), ("9", "2", "3"), ("1", "6", "3"), ("1", "2", "7")]
-    run = run_hull(data_deck(points, "four"), _translated, Options(core=60_000))
+    points = [(1, 2, 3), (9, 2, 3), (1, 6, 3), (1, 2, 7)]
+    run = run_hull(deck_with(points), _translated, Options(core=60_000))
     punched = {*read_hull(run.final.result.punched).vertices}
     original = {tuple(map(Fraction, point)) for point in points}
     centre = [sum(axis) / len(original) for axis in zip(*original, strict=True)]

@@ -1,6 +1,7 @@
 """Checks of chapters 5 and 7: the machine, the data sheet, rejected data, errors and the two modifications."""
 
 import re
+from collections.abc import Iterable
 from decimal import Decimal
 from fractions import Fraction
 from functools import cache
@@ -17,7 +18,7 @@ from modern.claims.register import statements_of
 from modern.claims.sampled_sets import CASES, SETS, Point, counterexample, plane_through, plane_value, sampled_sets
 from modern.claims.thesis.chapter3_steps import between_by_distances
 from modern.comparison.difference import disagreement
-from modern.comparison.outcome import from_cards, from_hull, from_judge
+from modern.comparison.outcome import Vector, from_cards, from_hull, from_judge
 from modern.edition import programs
 from modern.formats.csv import points as csv_points
 from modern.formats.deck import coordinate_field, data_deck, exact_points
@@ -46,6 +47,15 @@ def deck_of(name: str) -> Deck:
 def run_of(name: str) -> HullRun:
     """Run the listing on a counterexample that is a data deck."""
     return run_hull(deck_of(name), programs.program, Options(limit=100_000))
+
+
+def deck_with(points: Iterable[Iterable[object]]) -> Deck:
+    """Return a data deck with the given points."""
+    return data_deck([[*map(str, point)] for point in points], "points")
+
+
+def points_on(deck: Deck) -> list[Vector]:
+    return [tuple(map(Fraction, point)) for point in exact_points(deck)[0].values()]
 
 
 def typed(run: HullRun) -> str:
@@ -81,7 +91,7 @@ def program_sizes() -> Check:
 
 @claim("thesis.14")
 def fifty_one_points() -> Check:
-    points, _ = exact_points(deck_of("table.deck"))
+    points = points_on(deck_of("table.deck"))
     arrays = [{entry.name: entry.size for entry in programs.program(name).storage.arrays()} for name in THREE]
     most = entries_of_plane_table()
     coordinates = {
@@ -89,7 +99,7 @@ def fifty_one_points() -> Check:
     }
     tetrahedron = [(0, 0, 0), (60, 0, 0), (0, 60, 0), (0, 0, 60)]
     many = [*tetrahedron, *((k, 1, 1) for k in range(1, 48))]
-    hull = read_hull(run_hull(data_deck([[*map(str, p)] for p in many], "many"), programs.program).final.result.punched)
+    hull = read_hull(run_hull(deck_with(many), programs.program).final.result.punched)
     right = {tuple(map(int, p)) for p in hull.vertices} == {*tetrahedron} and len(many) == 51
     right = right and coordinates == {51} and arrays[2]["KK"] == PLACES
     check = exhibited(right, "the arrays hold 51 points, and the programs find the hull of a set of 51 points")
@@ -104,14 +114,14 @@ def entries_of_plane_table() -> int:
     Each step keeps the planes of the previous hull, adds three for each replaced plane and then removes the replaced
     one.
     """
-    hull = convex_hull([*exact_points(deck_of("table.deck"))[0].values()], history=True)
+    hull = convex_hull(points_on(deck_of("table.deck")), history=True)
     return max(len(before.equations) + 2 * after.outside + 1 for before, after in pairwise(hull.history))
 
 
 def plane_through_c() -> Check:
     """Check that a run ends with an error (KNOWN-FAULTS 3) if a plane contains the inside point C; a hull exists."""
     message = typed(run_of("throughc.deck"))
-    points = [[*map(Fraction, point)] for point in exact_points(deck_of("throughc.deck"))[0].values()]
+    points = points_on(deck_of("throughc.deck"))
     judge = exact_hull(points)
     passed = message.endswith("ERROR IN PROGRAM") and "P3-027" in convex_hull(points).corrected
     message = f"typed: {message}; the exact hull has {len(judge.vertices)} vertices and {len(judge.facets)} planes"
@@ -135,9 +145,9 @@ def truncated_roots() -> Check:
 
 def vertices_of(name: str) -> tuple[set[int], set[int]]:
     """Return the vertices that the listing punches for a counterexample, and its exact vertices, as sets of indices."""
-    points = [tuple(map(Fraction, point)) for point in exact_points(deck_of(name))[0].values()]
+    points = points_on(deck_of(name))
     outcome = from_cards("listing", run_of(name), points)
-    return set(outcome.vertices), set(exact_hull([*map(list, points)]).vertices)
+    return set(outcome.vertices), set(exact_hull(points).vertices)
 
 
 @claim("thesis.159")
@@ -195,7 +205,7 @@ def hull_of_approximations(cases: int = 3) -> Check:
     def approximates(sevenths: tuple[Point, ...]) -> bool:
         texts = [[format(Decimal(k) / 7, ".15f") for k in point] for point in sevenths]
         deck = data_deck(texts, "sevenths", truncate=True)
-        points = [tuple(map(Fraction, point)) for point in exact_points(deck)[0].values()]
+        points = points_on(deck)
         judge = from_judge(exact_hull(points), points)
         listing = from_cards("listing", run_hull(deck, programs.program, Options(limit=200_000)), points)
         found.append(listing.determined and disagreement(listing, judge, points).agrees)
@@ -253,7 +263,7 @@ def fourth_point_off_plane() -> Check:
 @claim("thesis.184")
 def programs_rejecting_data() -> Check:
     has = [name for name in THREE if "DATA NOT ACCEPTABLE" in programs.deck(name).text()]
-    deck = data_deck([[*map(str, point)] for point in _REJECTED], "rejected")
+    deck = deck_with(_REJECTED)
     run = run_hull(deck, programs.program)
     rejected = _misses(_THREE) and typed(run).endswith("DATA NOT ACCEPTABLE") and run.final.name == "program3"
     check = exhibited(rejected and {*has} >= {"program2", "program3"}, f"typed: {typed(run)}")
@@ -262,9 +272,7 @@ def programs_rejecting_data() -> Check:
     replaced = [plane for plane in first.equations if {*plane} not in map(set, last.equations)]
     # The program may compute the equation from its points in any order.
     orders = [[tuple(_NOT_TESTED[k] for k in order) for order in permutations(plane)] for plane in replaced]
-    complete = run_hull(
-        data_deck([[*map(str, point)] for point in _NOT_TESTED], "not tested"), programs.program
-    ).complete
+    complete = run_hull(deck_with(_NOT_TESTED), programs.program).complete
     missed = complete and any(all(map(_misses, of_plane)) for of_plane in orders)
     continues = not typed(switched).endswith("DATA NOT ACCEPTABLE")
     case = (
@@ -352,7 +360,7 @@ def data_sheet(part: str) -> Check:
     """Check the numbers, the digits of a number, or the columns of the fields of the cards on pages 58 and 59."""
     if part == "columns":
         z = max(z for _, _, z in read_hull(run_of("z_in_39.deck").final.result.punched).vertices)
-        deck = data_deck([["3", "12", "1"]], "one")
+        deck = deck_with([(3, 12, 1)])
         ((*_, in_29),) = read_hull(run_hull(deck, programs.program).final.result.punched).vertices
         right = len(deck.cards[-1].text.rstrip()) == 42 and in_29 == 1
         return slip(z == 1, right, "29 to 42", f"program 1 reads a z of 1 in columns 39 to 52 as {float(z)}")

@@ -21,6 +21,7 @@ from modern.claims.sampled_sets import (
     sampled_sets,
 )
 from modern.digital.solids import listed
+from modern.geometry.mesh import sides
 from modern.geometry.vectors import dot
 from modern.papers.yau_srihari import OctreeHull, Printed
 from modern.papers.yau_srihari.convexity import convex_deficiency, is_digitally_convex, is_simple
@@ -200,7 +201,7 @@ def rule_1(cases: int = 5) -> Check:
 
     def are_opposite(voxels: tuple[Point, ...]) -> bool:
         faces = hull_of(voxels).lower.faces
-        edges = [(u, v, f) for f in faces for u, v in zip(f.vertices, (*f.vertices[1:], f.vertices[0]), strict=True)]
+        edges = [(u, v, f) for f in faces for u, v in sides(f.vertices)]
         on_one_side = all(normal_of(u, v, w)[2] < 0 for u, v, f in edges for w in {*f.vertices} - {u, v})
         return on_one_side and len({(u, v) for u, v, _ in edges}) == len(edges)
 
