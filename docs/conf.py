@@ -37,6 +37,7 @@ napoleon_use_ivar = True
 html_theme = "furo"
 html_title = "The hull programs of 1963"
 html_static_path = ["_static"]
+html_favicon = "_static/favicon.svg"
 html_css_files = ["edition.css", "data.css", "console.css"]
 html_js_files = ["edition.js", ("data.js", {"defer": "defer"}), ("story.js", {"defer": "defer"})]
 html_copy_source = False

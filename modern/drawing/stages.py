@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from itertools import repeat
 
 from modern.drawing import svg
 from modern.drawing.draw import scene_items
@@ -27,8 +28,9 @@ WAITING = svg.Style("waiting", "not tested yet", "dot", 'fill="#fff" stroke="#77
 class Frame:
     """The picture of one stage of the construction of a hull.
 
-    ``waiting`` are the positions of the points not tested yet, ``struck`` those of the points that this stage
-    eliminated as inside, and ``added`` those of the vertices that it added.
+    ``waiting`` are the positions of the points not tested yet, ``struck`` those of the points that have been
+    eliminated as inside so far, and ``added`` those of the vertices that this stage added.  In the last stage no point
+    waits: ``boundary`` are then the positions of the points on the boundary of the hull that are not vertices.
     """
 
     stage: Stage
@@ -38,6 +40,7 @@ class Frame:
     waiting: tuple[Pixel, ...]
     struck: tuple[Pixel, ...]
     added: tuple[Pixel, ...]
+    boundary: tuple[Pixel, ...]
 
     @property
     def caption(self) -> tuple[str, str]:
@@ -77,15 +80,17 @@ def frames(
         at = tuple(places[order[index]] for index in stage_hull.vertices)
         layout = Layout(width, height, at, (), (), tuple((k,) for k in range(len(at))))
         untested = [index for index in flat if index not in vertices and index not in eliminated]
+        boundary = set(hull.boundary) if stage is hull.history[-1] else set[int]()
         stage_frames.append(
             Frame(
                 stage,
                 stage_hull,
                 picture,
                 layout,
-                tuple(places[index] for index in untested),
-                tuple(places[index] for index in stage.struck),
+                tuple(places[index] for index in untested if index not in boundary),
+                tuple(places[index] for index in sorted(eliminated)),
                 tuple(places[index] for index in stage.added),
+                tuple(places[index] for index in untested if index in boundary),
             )
         )
     return tuple(stage_frames)
@@ -110,7 +115,7 @@ def strip(all_frames: Sequence[Frame], title: str = "", columns: int = _COLUMNS)
         x, y = k % columns * cell[0], k // columns * cell[1]
         items += [f'<g transform="translate({x} {y})">', *_items(frame), "</g>"]
     top = rows * cell[1]
-    return page(columns * cell[0], top + 24, title or "H1 to Hf", [*items, *_legend(top)])
+    return page(columns * cell[0], top + 24, title or "H1 to Hf", [*items, *_legend(top, all_frames)])
 
 
 def played(all_frames: Sequence[Frame], title: str = "") -> str:
@@ -135,7 +140,7 @@ def played(all_frames: Sequence[Frame], title: str = "") -> str:
     for k, frame in enumerate(all_frames):
         kind = "stage end" if k == len(all_frames) - 1 else "stage"
         items += [f'<g class="{kind}" style="animation-delay:{k * _SECONDS:g}s">', *_items(frame), "</g>"]
-    return page(width, height + 24, title or "H1 to Hf", [*items, *_legend(height)])
+    return page(width, height + 24, title or "H1 to Hf", [*items, *_legend(height, all_frames)])
 
 
 def _items(frame: Frame) -> Iterator[str]:
@@ -143,6 +148,14 @@ def _items(frame: Frame) -> Iterator[str]:
     base = frame.layout.height + 12
     texts = (svg.text(Pixel(1200, 100 * (base + 16 * k)), line) for k, line in enumerate(frame.caption) if line)
     yield from svg.group("words", _FONT, texts)
+    yield from svg.group("numbers", _FONT, map(_number, frame.stage.added, frame.added, repeat(frame.layout)))
+
+
+def _number(index: int, at: Pixel, layout: Layout) -> str:
+    """Return the number of a point as text beside its dot, towards the nearer corner of the picture."""
+    is_left, is_upper = at.x < 50 * layout.width, at.y < 50 * layout.height
+    place = Pixel(at.x + (-700 if is_left else 700), at.y + (-500 if is_upper else 1400))
+    return svg.text(place, str(index + 1), 'text-anchor="end"' if is_left else "")
 
 
 def _drawn(frame: Frame) -> Iterator[str]:
@@ -150,12 +163,18 @@ def _drawn(frame: Frame) -> Iterator[str]:
     yield from svg.group(WAITING.key, WAITING.attributes, (svg.point_mark(WAITING, at) for at in frame.waiting))
     yield from svg.group(svg.INSIDE.key, svg.INSIDE.attributes, (svg.point_mark(svg.INSIDE, at) for at in frame.struck))
     yield from svg.group(ADDED.key, ADDED.attributes, (svg.circle(at, "5") for at in frame.added))
+    boundary = (svg.point_mark(svg.BOUNDARY, at) for at in frame.boundary)
+    yield from svg.group(svg.BOUNDARY.key, svg.BOUNDARY.attributes, boundary)
 
 
-def _legend(top: int) -> list[str]:
+def _legend(top: int, all_frames: Sequence[Frame]) -> list[str]:
+    styles = [(ADDED, "added"), (svg.INSIDE, "inside, eliminated"), (WAITING, WAITING.name)]
+    if all_frames[-1].boundary:
+        styles.append((svg.BOUNDARY, "on the boundary"))
+
     def items() -> Iterator[str]:
         x = 12
-        for style, name in ((ADDED, "added"), (svg.INSIDE, "inside, eliminated"), (WAITING, WAITING.name)):
+        for style, name in styles:
             yield svg.sample(style, Pixel(100 * (x + 6), 100 * (top + 8)))
             yield svg.text(Pixel(100 * (x + 18), 100 * (top + 12)), name)
             x += 34 + 7 * len(name)

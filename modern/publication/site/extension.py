@@ -143,10 +143,16 @@ def _write_places(app: Sphinx, exception: Exception | None) -> None:
     (Path(app.outdir) / "_static" / "places.js").write_text(script, encoding="utf-8")
 
 
+def _without_descriptions(app: Sphinx, environment: Any) -> None:
+    """Remove the commands from the search, which would show their descriptions as names; their sections are found."""
+    environment.domains["commands"].data["commands"].clear()
+
+
 def setup(app: Sphinx) -> dict[str, Any]:
     """Register the directive, the event handlers and the HTML writer. Sphinx calls this function."""
     app.add_directive("made", MadeDirective)
     app.connect("source-read", _project_files)
+    app.connect("env-updated", _without_descriptions)
     app.connect("html-page-context", _stack_tables)
     app.connect("build-finished", _write_places)
     app.set_translator("html", AccessibleTranslator)

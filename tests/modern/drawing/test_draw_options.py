@@ -150,6 +150,17 @@ def test_every_stage_has_the_hull_of_the_vertices_so_far() -> None:
     assert stages[-1].waiting == ()
 
 
+def test_the_last_stage_shows_every_point_as_vertex_inside_or_boundary_point() -> None:
+    flat_top = [(0, 0, 0), (6, 0, 0), (0, 6, 0), (0, 0, 6), (1, 1, 1), (2, 2, 2), (3, 3, 0), (6, 6, 6)]
+    hull = staged(flat_top)
+    last = frames(hull)[-1]
+    assert last.waiting == ()
+    assert len(last.boundary) == len(hull.boundary) > 0
+    assert len(last.struck) == len(hull.inside) > 0
+    numbers = groups(strip(frames(hull)))["numbers"]
+    assert [number.text for number in numbers] == [str(index + 1) for stage in hull.history for index in stage.added]
+
+
 def test_strip_and_animation_contain_all_stages() -> None:
     construction = frames(staged(SOLID))
     text = strip(construction, "solid")

@@ -75,9 +75,11 @@ def _examples() -> str:
     examples = []
     for example in EXAMPLES:
         listed, rebuilt = (_agreement(example, state) for state in ("listing", "examples"))
-        verdict = f": {listed} as listed; {rebuilt} in the rebuilt state"
+        verdict = f": as listed {listed}; as reconstructed {rebuilt}"
         examples.append(element("li", link(f"example{example}", "", f"Example {example}") + escape(verdict)))
-    head = text("p", "The printed results of the six examples, compared with program 1 as listed and as rebuilt:")
+    head = text(
+        "p", "The printed results of the six examples, compared with program 1 as listed and as reconstructed:"
+    )
     return head + element("ul", "".join(examples), cls="examples")
 
 

@@ -51,7 +51,7 @@ def _truncation() -> str:
     )
     html = summary + table(("x of the first point", *essay.HEAD), shown, "A plane's values at its own points")
     caption = f"{essay.plane_caption()} All values are exact until an intermediate result of D needs more than eight \
-digits. Then the plane misses its own points."
+digits. The digits dropped there make D too small or too large, and the plane misses its own points."
     box = element("div", html, cls="slider", data_rows=json.dumps(rows))
     return element("figure", box + text("figcaption", caption))
 
