@@ -48,7 +48,16 @@ def opened(
     errors: list[str] = []
     tab.on("console", lambda message: errors.append(message.text) if message.type == "error" else None)
     tab.on("pageerror", lambda error: errors.append(str(error)))
-    tab.on("requestfailed", lambda request: errors.append(f"not loaded: {request.url}"))
+    # The next page may be opened before the icon is loaded; then Chromium aborts the request.
+    aborted_icon = ("net::ERR_ABORTED", "favicon.svg")
+    tab.on(
+        "requestfailed",
+        lambda request: (
+            None
+            if (request.failure, request.url.rpartition("/")[2]) == aborted_icon
+            else errors.append(f"not loaded: {request.url}")
+        ),
+    )
     tab.goto(f"{site.as_uri()}/{address}")
     yield tab, errors
     context.close()
