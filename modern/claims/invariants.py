@@ -131,7 +131,10 @@ def ball_of_diameter_32() -> Check:
     outcomes = [
         ("an odd number of voxels", voxels % 2 == 1),
         # The corners lie on no plane of symmetry, and the reflections in three planes move them in groups of 8.
-        ("multiples of 8", corners % 8 == near_corners % 8 == 0 and (triangles + 4) % 16 == 0),
+        (
+            "numbers that reflections in three planes allow",
+            corners % 8 == near_corners % 8 == 0 and (triangles + 4) % 16 == 0,
+        ),
         (f"at most {corners} corners make the triangles", triangles <= 2 * corners - 4),
         ("possible number of faces", may_be_convex(near_corners, faces) and faces % 2 == 0),
     ]
@@ -264,7 +267,7 @@ def example_of_chapter_6(example: int) -> Check:
 
 @claim("thesis.150")
 def table_of_theorem_4_8() -> Check:
-    """Check that the table of theorem 4.8 counts the planes of a convex polyhedron."""
+    """Check that the numbers in the table of theorem 4.8 satisfy Euler's formula and V <= 2 F - 4."""
     data = next(data for data in load_theorems() if data.id == "4.8")
     hull = [p for p in data.points if p.name != "Q9"]
     on = [sum(plane.at(p) == 0 for p in hull) for plane in data.planes]

@@ -114,9 +114,10 @@ class Planes:
 
     @cached_property
     def _small(self) -> tuple[Ints, bool] | None:
-        """The normals as int64, and True if int64 also holds all scalar products with them, or None if they do not fit.
+        """The normals as int64, and whether int64 also holds all scalar products of normals and points.
 
-        If False, :func:`long_signs` finds the signs of the scalar products.
+        If it does not, :func:`long_signs` finds the signs of the scalar products.  The value is None if the normals
+        themselves do not fit into int64.
         """
         if self.points.kind != "i":
             return None

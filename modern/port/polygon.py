@@ -173,7 +173,7 @@ def lowered(ends: NDArray[np.int64], not_vertices: Sequence[int]) -> list[int]:
 
 
 def listed_numbers(ends: NDArray[np.int64], not_vertices: Sequence[int]) -> list[int]:
-    """Return the vertex numbers of the ends of the lines as the listing computes them (second statement after 179 on).
+    """Return the vertex numbers of the ends of the lines as the listing computes them from statement 179+2 on.
 
     A number can be too high, because the listing compares numbers that it has already lowered.
     """

@@ -161,7 +161,7 @@ def _body(surface: FileMesh, component: _Component, reading: Reading) -> tuple[P
     if dents:
         raise SceneError(f"{name}: {_advice(surface, max(dents, key=lambda dent: (dent[0], -dent[1])), reading)}")
     if far is not None:
-        raise SceneError(f"{name}: face {far + 1} does not lie within that distance of the hull of the vertices")
+        raise SceneError(f"{name}: face {far + 1} does not lie within {reading.within} of the hull of the vertices")
     polyhedron = _as_given(closed)
     flaw = next(_flaws(closed, hull, polyhedron, reading), "")
     if flaw:

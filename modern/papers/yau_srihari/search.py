@@ -104,7 +104,8 @@ class Search:
     def bounds(self, low: int, high: int, x: int, y: int, side: int) -> Bounds:
         """Return bounds for the scores of points in a square: the paper's delta_1 and delta_2.
 
-        At least one point of the square has a score of at least delta_1, and no point has a score above delta_2. Both
+        At least one point of the square has a score (see :meth:`score`) of at least delta_1, and no point has a score
+        above delta_2. Both
         are None if the corners of the square do not determine them.
 
         The lower a point is, the smaller is the angle between the known face and the face through the point. The least

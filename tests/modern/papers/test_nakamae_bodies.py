@@ -139,7 +139,7 @@ def test_deviations_beyond_the_distance_are_rejected() -> None:
         read_mesh(points, ELL_FACES, Reading(within=Fraction(1, 100)))
     walls = [(k, k + 5, (k + 1) % 5 + 5, (k + 1) % 5) for k in range(5)]
     star = [(x, y, z) for z in (0, 9) for x, y in STAR]
-    with pytest.raises(SceneError, match=r"^f: face 1 does not lie within that distance of the hull of the vertices$"):
+    with pytest.raises(SceneError, match=r"^f: face 1 does not lie within 1/100 of the hull of the vertices$"):
         read_mesh(star, [*walls, (0, 1, 2, 3, 4), (9, 8, 7, 6, 5)], Reading(within=Fraction(1, 100)))
 
 
