@@ -213,7 +213,8 @@ def divided_box(cases: int = 2) -> Check:
         )
         return together == whole < apart
 
-    return search(DIVISIONS, restores, cases, "the visible lines are those of the whole box if ghost lines are removed")
+    message = "the visible lines of the parts are as long as those of the whole box, but longer with ghost lines"
+    return search(DIVISIONS, restores, cases, message)
 
 
 def _visible_length(drawing: Drawing) -> Fraction:

@@ -172,7 +172,7 @@ def formula_5() -> Check:
     # The corners of this face run clockwise as seen from above.
     face = plane_through((0, 0, 0, 1), (0, 4, 0, 1), (4, 4, 0, 1))
     above, on, below = (sign(height(face, (1, 2, z, 1))) for z in (1, 0, -1))
-    message = "the value is positive outside the face, negative on its other side"
+    message = "the value is positive if the vertex is nearer than the face around it, and has one sign for all of V'"
     check = proved(argument, [step.is_valid() for step in steps], message)
     return check.unless(above > on == 0 > below, "a vertex in the face, for which the value is 0")
 

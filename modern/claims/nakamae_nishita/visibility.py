@@ -92,8 +92,9 @@ def hidden_contour_edges(cases: int = 3) -> Check:
 
 @claim("nakamae-nishita.49", full=600)
 def order_of_invisibility(cases: int = 3) -> Check:
-    behind = edges_wholly_behind()
-    return pieces_against_rays(cases).unless(not behind.holds, f"a box partly behind a wall: {behind.message}")
+    behind, corners = edges_wholly_behind(), indices(1).evidence.violation
+    case = f"a box partly behind a wall: {behind.message}; and by {corners}"
+    return pieces_against_rays(cases).unless(not behind.holds and corners, case)
 
 
 def _two_boxes(at: tuple[int, int, int]) -> Drawing:

@@ -122,7 +122,8 @@ def digital_hull_by_envelopes(cases: int = 3) -> Check:
     return envelopes_against_judge(cases).unless(not disconnected.holds, f"a path of stairs: {disconnected.message}")
 
 
-@claim("yau-srihari.120", "yau-srihari.70", names="angle", full=400)
+@claim("yau-srihari.70", names="angle", full=400)
+@claim("yau-srihari.120", names="angle triangles", full=400)
 @claim("yau-srihari.68", names="angle bound", full=400)
 @claim("yau-srihari.125", "yau-srihari.106", names="marks", full=400)
 def corrected_step(names: str, cases: int = 2) -> Check:

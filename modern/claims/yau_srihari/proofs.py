@@ -109,7 +109,8 @@ def theorem_2() -> Proof:
     }
     coordinates = tuple(term("inside", coordinate) for coordinate in f)
     return Proof(
-        "a plane through an edge of a face p supports if and only if its interior dihedral angle with p is the largest",
+        "a plane through an edge of a face p supports if and only if its interior dihedral angle with p is the "
+        "largest, and if and only if no point is on the side opposite to the third corner of p",
         "Project along the edge, so that p becomes the ray f and all points are on one side of it. The interior "
         "dihedral angle of the plane through u is the angle from f to u, and w is inside of that plane if w turns to "
         "u in the same sense. The two conditions differ by the factor f f, and so the largest angle has all points "

@@ -110,12 +110,14 @@ class _Counted(Search):
 
 @claim("yau-srihari.129", full=100)
 def angle_counts(cases: int = 3) -> Check:
-    balls = ball(8, VERTEX).array
-    counts = [_angles(octree_hull(array)) for array in (balls, *map(array_of, SOLIDS.cases(cases)))]
-    (whole, preprocessed, by_search, with_bounds), *_ = counts
+    balls = [ball(diameter, VERTEX).array for diameter in (8, 12)]
+    counts = [_angles(octree_hull(array)) for array in (*balls, *map(array_of, SOLIDS.cases(cases)))]
+    (whole, preprocessed, by_search, with_bounds), (whole_of_12, _, _, with_bounds_of_12), *_ = counts
     outcomes = [search <= reduced <= all_points for all_points, reduced, search, _ in counts]
+    outcomes += [by_search < preprocessed < whole, with_bounds_of_12 < whole_of_12]
     message = f"a ball has {whole} angles of points, {preprocessed} after preprocessing, {by_search} by search"
-    check = searched(SOLIDS, cases, [*outcomes, by_search < preprocessed < whole], message)
+    message += f"; with all bounds, a ball of diameter 12 has {with_bounds_of_12} instead of {whole_of_12}"
+    check = searched(SOLIDS, cases, outcomes, message)
     return check.unless(with_bounds > whole, f"the bounds in a ball of diameter 8: with them {with_bounds} angles")
 
 
