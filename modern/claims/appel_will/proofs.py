@@ -74,7 +74,8 @@ def lines_and_planes() -> Proof:
     value_terms = term("plane"), term("unit", t)
     ends = [(axis, a + length * c - b, length * c - (b - a)) for axis, a, b, c in zip("xyz", p, q, n, strict=True)]
     return Proof(
-        "t is the distance on a line with a unit direction, and the value that from a plane with a unit normal",
+        "t is the distance from the first point of a line with a unit direction, and a x + b y + c z + d is the "
+        "distance from a plane with the unit normal (a, b, c)",
         "The squares of a, b and c have the sum 1, because the square of the length is that of the differences. The "
         "direction times the length leads from the start to the end, and times t to the point at the distance t. The "
         "equation of a plane is 0 at its points, and t at the distance t along its normal.",
@@ -126,7 +127,8 @@ def fewer_pairs() -> Proof:
 
 def points_of_hull() -> Proof:
     return Proof(
-        "a combination of points is on the inner side of every plane that has all these points on this side",
+        "a combination of points is on the inner side of every plane that has all these points on this side, so that "
+        "it can be added to the points without a change of the hull",
         "The points of the hull are the combinations of the vertices, and all vertices are on the inner side of each "
         "plane. So the object determines its hull, and the hull stays the same if any of the infinitely many points "
         "inside it is added to the object, for example as the apex of a pit.",
