@@ -131,10 +131,7 @@ def ball_of_diameter_32() -> Check:
     outcomes = [
         ("an odd number of voxels", voxels % 2 == 1),
         # The corners lie on no plane of symmetry, and the reflections in three planes move them in groups of 8.
-        (
-            "numbers that reflections in three planes allow",
-            corners % 8 == near_corners % 8 == 0 and (triangles + 4) % 16 == 0,
-        ),
+        ("corners in groups of eight", corners % 8 == near_corners % 8 == 0 and (triangles + 4) % 16 == 0),
         (f"at most {corners} corners make the triangles", triangles <= 2 * corners - 4),
         ("possible number of faces", may_be_convex(near_corners, faces) and faces % 2 == 0),
     ]

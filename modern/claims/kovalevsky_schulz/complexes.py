@@ -10,9 +10,10 @@ from itertools import combinations, combinations_with_replacement, product
 
 from modern.claims.evidence import Check, claim, exhausted, exhibited, search
 from modern.claims.hulls import exact_hull
-from modern.claims.kovalevsky_schulz.voxels import KINDS, SOLIDS, Voxels
+from modern.claims.kovalevsky_schulz.voxels import KINDS, SOLIDS, STEPS, Voxels
 from modern.claims.sampled_sets import Point
 from modern.digital.solids import Volume, listed
+from modern.geometry.vectors import minus
 from modern.papers.kovalevsky_schulz import VERTICES
 from modern.papers.kovalevsky_schulz.corners import Of, places
 
@@ -85,9 +86,11 @@ def additional_labels(cases: int = 3) -> Check:
     def agrees(solid: Voxels) -> bool:
         corners = {cell for cell in _complex(solid) if dimension(cell) == 0}
         added = _halved(map(farthest_ground_cell, corners), 3) - {*solid}
-        return _placed(solid, VERTICES) - {*solid} == added and max(map(sum, added)) > max(map(sum, solid))
+        away = all(any(minus((x, y, z), step) in solid for step in STEPS) for x, y, z in added)
+        return _placed(solid, VERTICES) - {*solid} == added and away and max(map(sum, added)) > max(map(sum, solid))
 
-    return search(SOLIDS, agrees, cases, "the element farthest from the origin is labelled in addition to the voxels")
+    message = "each further element is next to a voxel that is nearer to the origin"
+    return search(SOLIDS, agrees, cases, message)
 
 
 @claim("kovalevsky-schulz.27")
@@ -129,7 +132,7 @@ def incidence_by_coordinates() -> Check:
     ]
     outcomes.append(any(near[f] - near[e] for e in cells for f in near[e] & {*cells}))
     message = f"each of {len(cells)} cells has one element, whose coordinates tell its dimension and incident cells; "
-    message += "incidence is not transitive"
+    message += "incidence is symmetric and reflexive, but not transitive"
     return exhausted("cells of a block of eight voxels and pairs of them", outcomes, message)
 
 

@@ -92,7 +92,8 @@ def growing_polyhedra(cases: int = CASES) -> Check:
             inside = all(plane_value(plane, points[n - 1]) <= 0 for plane in planes_before)
             outcomes.append(inside or points[n - 1] in cells.points)
             before, planes_before = cells.points, cells.planes()
-    message = "every polyhedron is the intersection of half-spaces and contains all points and polyhedra before it"
+    message = "every polyhedron is the intersection of half-spaces and contains all points and polyhedra before it; "
+    message += "each new point becomes a vertex or was inside"
     return searched(SETS[3], cases, outcomes, message)
 
 
@@ -125,7 +126,8 @@ def cells_removed(cases: int = CASES) -> Check:
         remaining_edges = {e for e in judge.edges() if any({*e} <= h for h in hidden)}
         checks.append({e for e in after.edges() if len(points) not in e} == remaining_edges)
     generator = replace(SETS[3], name=f"{SETS[3].name}, and two points outside unless they are in the plane of a face")
-    return searched(generator, cases, checks, f"true for {len(checks) // 3} points outside a hull")
+    message = f"{len(checks) // 3} points outside a hull replace the faces that they see, with all edges and vertices "
+    return searched(generator, cases, checks, f"{message}of these only, by a triangle on each edge of their boundary")
 
 
 @claim("kovalevsky-schulz.52")

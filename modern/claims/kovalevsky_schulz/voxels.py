@@ -12,7 +12,7 @@ from modern.claims.evidence import Check, Generator, claim, exhausted, exhibited
 from modern.claims.hulls import convex_polyhedron, exact_hull
 from modern.claims.invariants import numbers_of_ball
 from modern.claims.sampled_sets import Point, counterexample_points, plane_value
-from modern.digital.solids import VERTEX, VOXEL, ball, listed
+from modern.digital.solids import VERTEX, VOXEL, Volume, ball, listed
 from modern.geometry.vectors import dot, minus, plus
 from modern.papers.kovalevsky_schulz import CENTRES, INVISIBLE, VERTICES, VISIBLE, local_corners
 from modern.papers.kovalevsky_schulz.corners import Of
@@ -89,10 +89,14 @@ def _triangles(corners: Iterable[Iterable[int]], coplanar: Coplanar = INVISIBLE)
     return len(convex_polyhedron(corners, coplanar).faces)  # type: ignore[union-attr]
 
 
+def _ball_without_sphere() -> Volume:
+    return listed([voxel for voxel in ball(32).coordinates().tolist() if dot(voxel, voxel) < 16**2])
+
+
 @claim("kovalevsky-schulz.20")
 def voxels_of_ball() -> Check:
     printed, numbers = numbers_of_ball()[0], [ball(32, centre).count for centre in (VOXEL, VERTEX)]
-    inner = sum(dot(voxel, voxel) < 16**2 for voxel in ball(32).coordinates().tolist())
+    inner = _ball_without_sphere().count
     check = exhibited(numbers[0] == printed, f"the ball centred on a voxel has {numbers[0]} voxels")
     case = f"a ball centred on a corner of voxels, which has {numbers[1]}, and one without its sphere, with {inner}"
     return check.unless(printed not in (numbers[1], inner), case)
@@ -102,11 +106,12 @@ def voxels_of_ball() -> Check:
 def numbers_of_local_corners() -> Check:
     corners, voxels = ([len(local_corners(ball(32), of, n)) for n in (6, 26)] for of in (VERTICES, CENTRES))
     message = f"the corners of voxels have {corners[0]} and {corners[1]} local corners"
-    moved = [len(local_corners(ball(32, VERTEX), VERTICES, n)) for n in (6, 26)]
-    other = f"the voxels, of which {voxels[0]} and {voxels[1]} are local corners, and a ball centred on a corner of "
-    other += f"voxels, with {moved[0]} and {moved[1]}"
+    balls = ball(32, VERTEX), _ball_without_sphere()
+    moved, inner = ([len(local_corners(other, VERTICES, n)) for n in (6, 26)] for other in balls)
+    case = f"the voxels, of which {voxels[0]} and {voxels[1]} are local corners, a ball centred on a corner of "
+    case += f"voxels, with {moved[0]} and {moved[1]}, and one without its sphere, with {inner[0]} and {inner[1]}"
     printed = numbers_of_ball()[1:3]
-    return exhibited(corners == printed, message).unless(printed not in (voxels, moved), other)
+    return exhibited(corners == printed, message).unless(printed not in (voxels, moved, inner), case)
 
 
 @claim("kovalevsky-schulz.62")
@@ -127,15 +132,14 @@ def printed_triangles() -> Check:
 def printed_faces() -> Check:
     hull = hull_of_ball(32, INVISIBLE).polyhedron
     numbers = [len(hull.triangles.faces), len(hull.faces.faces)]
-    corners, fewer, moved = (
-        local_corners(ball(32, centre), VERTICES, neighbours).tolist()
-        for centre, neighbours in ((VOXEL, 6), (VOXEL, 26), (VERTEX, 6))
-    )
+    balls = (ball(32), 6), (ball(32), 26), (ball(32, VERTEX), 6), (_ball_without_sphere(), 6)
+    corners, fewer, moved, inner = (local_corners(solid, VERTICES, n).tolist() for solid, n in balls)
     others = {
         "visible coplanar faces": _triangles(corners, VISIBLE),
         "a random order of the corners": _triangles(Random(1).sample(corners, len(corners))),
         f"{len(fewer)} corners": _triangles(fewer),
         "a ball centred on a corner of voxels": _triangles(moved),
+        "a ball without its sphere": _triangles(inner),
     }
     case = "; ".join(f"{change}: {number} triangles" for change, number in others.items())
     check = exhibited(numbers == numbers_of_ball()[3:], f"{numbers[0]} triangles and {numbers[1]} faces")
@@ -177,4 +181,5 @@ def corners_of_eight_voxels() -> Check:
         for voxels in subsets
     ]
     domain = "subsets of the eight voxels at a corner that contain one of them"
-    return exhausted(domain, outcomes, f"true for {sum(outcomes)} subsets")
+    message = "a corner is halfway between two neighbours if and only if several voxels meet there, and if and only if "
+    return exhausted(domain, outcomes, f"{message}one of them continues an edge of another one")
