@@ -60,7 +60,7 @@ def coplanarity_test(cases: int = CASES) -> Check:
     for sampled in flat_and_spatial_sets(cases):
         first = plane_as_printed(*(sampled.points[k] for k in sampled.hull.history[0].added[:3]))
         checks.append(any(plane_value(first, point) for point in sampled.points) == (not sampled.flat))
-    return all_hold(BOTH, 2 * cases, checks, "sets: all values of (3.4) are 0 if and only if the set is flat")
+    return all_hold(BOTH, 2 * cases, checks, "sets: the first plane contains all points if and only if the set is flat")
 
 
 @claim("thesis.53", full=300)
@@ -205,7 +205,10 @@ def planes_i_and_m() -> Check:
         pairs += [edge for *_, edge in _shared(before, visible)]
         with_j += [len({*before.defining[i]} & {*before.defining[j]}) == 2 for i, *_ in _shared(before, visible)]
     right = bool(pairs) and all(len(edge) == 2 for edge in pairs) and planes_at_common_edge().holds
-    return slip(all(with_j), right, "i and m", f"{len(pairs)} pairs of planes i and m have two common points")
+    message = (
+        f"{len(pairs)} pairs of planes i and m have two common points; with plane j of H_j for m, {sum(with_j)} have"
+    )
+    return slip(all(with_j), right, "i and m", message)
 
 
 @claim("thesis.98", full=300)

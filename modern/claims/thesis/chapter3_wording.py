@@ -40,7 +40,7 @@ _ELIMINATE_CHECK_GROW = {"program2.f": {106: "E", 124: "C", 133: "G"}, "program3
 def text_against_listing() -> Check:
     losing = (fourth_point_by_largest(), line_duplicates_as_printed())
     same_result = (order_of_elimination(), order_of_replacement(), plane_duplicates_as_printed())
-    message = "traces show the steps in the order of chapter 3, and two steps differ only in the order of planes"
+    message = "traces show elimination, test and growth in order; two other steps change only the order of planes"
     check = exhibited(all(step.holds for step in same_result), message)
     return check.unless(not any(step.holds for step in losing), "two other steps, which lose the hull or a line")
 
