@@ -1,8 +1,8 @@
 """Convert numbers to card columns and back, on integers, by the rules of emulator/numbers/fields.py.
 
 Columns are a mutable sequence of ASCII codes.  The functions use only integers and loops, so that numba can compile
-them and the interpreter and the compiled engine share one source.  emulator/numbers/fields.py contains the message for
-each status.
+them. The interpreter and the compiled engine share these functions.  emulator/numbers/fields.py contains the message
+for each status.
 """
 
 from __future__ import annotations

@@ -67,7 +67,8 @@ class Verdict:
 class Report:
     """The verdict on the output of one program on one device, in one example with one state of program 1.
 
-    ``ending`` is the ending of the program's run, the error that ended the job, or None if the program did not run.
+    ``ending`` says how the run of the program ended. It is an error if the job failed with one, and None if the program
+    did not run.
     """
 
     example: int

@@ -219,7 +219,8 @@ def distance_text(value: Fraction) -> str:
 
 
 def _plain(value: Decimal) -> str:
-    """Return the number without trailing zeros.  Only a long number has an exponent: 40, 0.002, 1e-9."""
+    """Return the number without trailing zeros.  A number that would be long gets an
+    exponent: 40 and 0.002 have none, but 1e-9 has."""
     short = value.normalize()
     return f"{short:f}" if -5 < short.adjusted() < _LONGEST else f"{short:g}"
 
