@@ -256,7 +256,7 @@ def _misses(points: tuple[Point, ...], name: str = "truncating") -> list[int]:
 @claim("thesis.185")
 def fourth_point_off_plane() -> Check:
     exactly = not plane_value(plane_through(*_FOURTH[:3]), _FOURTH[3])
-    message = f"{_FOURTH[3]} lies exactly in the plane of the other three points, but misses it in eight digits"
+    message = f"{_FOURTH[3]} lies exactly in the plane of the other three points, but alone misses it in eight digits"
     return exhibited(exactly and _misses(_FOURTH) == [3], message)
 
 
