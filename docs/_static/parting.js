@@ -21,9 +21,24 @@
   let tilt = 0.35;
   let held = -1;
 
+  const OWN = "your own points";
   for (const name of Object.keys(sets)) at("sets").add(new Option(name, name));
+  const first = at("sets").value;
+  let own = ""; // the points that the visitor has typed or dragged last
+
+  /** Let the menu name the set that the points are; other points are the visitor's own. */
+  function name() {
+    const text = at("points").value;
+    const known = Object.keys(sets).find((title) => sets[title].trim() === text.trim());
+    if (known === undefined) {
+      own = text;
+      if (![...at("sets").options].some(({ value }) => value === OWN)) at("sets").add(new Option(OWN, OWN));
+    }
+    at("sets").value = known ?? OWN;
+  }
+
   at("sets").addEventListener("change", () => {
-    at("points").value = sets[at("sets").value];
+    at("points").value = sets[at("sets").value] ?? own;
     at("answer").replaceChildren();
     answer = null;
     draw();
@@ -64,6 +79,48 @@
     return one;
   }
 
+  /** The distance of a point from the line between two others. @param {number[]} point @param {number[][]} line */
+  function away([x, y], [[a, b], [c, d]]) {
+    const [u, v] = [c - a, d - b];
+    const share = Math.max(0, Math.min(1, ((x - a) * u + (y - b) * v) / (u * u + v * v || 1)));
+    return Math.hypot(x - a - share * u, y - b - share * v);
+  }
+
+  /**
+   * Place the number of each point next to its dot: outward from the centre of the picture, unless dots, lines or other
+   * numbers are there.
+   * @param {[number, number, number][]} dots The place and the size of each dot.
+   * @param {number[][][]} edges
+   */
+  function labels(dots, edges) {
+    const middle = [0, 1].map((k) => dots.reduce((sum, dot) => sum + dot[k], 0) / (dots.length || 1));
+    /** @type {[number, number, number][]} */
+    const placed = [];
+    dots.forEach(([x, y, size], n) => {
+      const half = n < 9 ? 3 : 4.5; // half of the size of a number
+      const outward = Math.atan2(y - middle[1], x - middle[0]);
+      const overlap = (/** @type {number[]} */ at) => {
+        let sum = 0;
+        for (const [a, b, other] of [...dots, ...placed]) sum += 3 * Math.max(0, half + other - Math.hypot(at[0] - a, at[1] - b));
+        for (const edge of edges) sum += Math.max(0, half + 0.5 - away(at, edge));
+        return sum + 9 * Math.max(0, Math.abs(at[0]) + half - 110, Math.abs(at[1]) + half - 110);
+      };
+      /** @type {[number, number, number]} */
+      let best = [x, y, half];
+      let least = Infinity;
+      for (const far of [0.5, 4])
+        for (let step = 0; step < 24; step += 1) {
+          const turned = (step % 2 ? 1 : -1) * Math.ceil(step / 2) * (Math.PI / 12);
+          const reach = size + half + far;
+          const spot = [x + reach * Math.cos(outward + turned), y + reach * Math.sin(outward + turned)];
+          const cost = overlap(spot) + Math.abs(turned) / 4 + far / 4;
+          if (cost < least) [best, least] = [[spot[0], spot[1], half], cost];
+        }
+      placed.push(best);
+    });
+    return placed;
+  }
+
   function draw() {
     const points = typed();
     const { place } = frame(points);
@@ -76,16 +133,23 @@
       for (const face of same.true.faces) mark("polygon", { points: loop(face), class: "parting-true" });
       for (const face of same.found.faces) mark("polygon", { points: loop(face), class: "parting-found" });
     }
+    /** @type {[number, number, number][]} The place and the size of each dot with its ring or cross. */
+    const dots = [];
     at2.forEach(([x, y], n) => {
       const dot = mark("circle", { cx: x, cy: y, r: 2.6, class: "parting-point", "data-n": n });
       dot.append(Object.assign(document.createElementNS(SVG, "title"), { textContent: `point ${n + 1}: ${points[n]}` }));
       if (!same) return;
       const is = same.true.vertices.includes(n);
       const said = same.found.vertices.includes(n);
-      if (is && !said && same.found.vertices.length) mark("circle", { cx: x, cy: y, r: 6, class: "parting-missed" });
-      if (said && !is) mark("path", { d: `M${x - 5} ${y - 5}l10 10m0-10l-10 10`, class: "parting-extra" });
-      mark("text", { x: x + 4, y: y - 4 }, String(n + 1));
+      const isMissed = is && !said && same.found.vertices.length > 0;
+      const isExtra = said && !is;
+      if (isMissed) mark("circle", { cx: x, cy: y, r: 6, class: "parting-missed" });
+      if (isExtra) mark("path", { d: `M${x - 5} ${y - 5}l10 10m0-10l-10 10`, class: "parting-extra" });
+      dots.push([x, y, isMissed || isExtra ? 7 : 3]);
     });
+    if (!same) return;
+    const edges = [...same.true.faces, ...same.found.faces].flatMap((face) => face.map((n, k) => [at2[n], at2[face[(k + 1) % face.length]]]));
+    for (const [n, [x, y]] of labels(dots, edges).entries()) mark("text", { x, y }, String(n + 1));
   }
 
   function tell() {
@@ -155,6 +219,7 @@
   });
   at("points").addEventListener("input", () => {
     answer = null;
+    name();
     draw();
   });
   for (const button of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("#parting [data-turn], #parting [data-tilt]")))
@@ -185,6 +250,7 @@
       points[held] = [Math.round(x / scale), Math.round(-y / scale), points[held][2]];
       at("points").value = points.map((point) => point.join(" ")).join("\n");
       answer = null;
+      name();
     } else if (!flat) {
       turn += (x - last[0]) / 60;
       tilt += (y - last[1]) / 60;
@@ -199,6 +265,9 @@
     if (moved) go();
   });
 
+  // A browser may restore the points that were typed before a reload.
+  name();
+  if (at("sets").value !== first) answer = null;
   draw();
   if (answer) tell();
   if (!bytes) at("says").textContent = "This site was built without the emulator. The answer shown is that of the first set.";

@@ -19,9 +19,7 @@ def offered() -> dict[str, list[list[str]]]:
     """Return ``programs`` and ``decks`` as lists of name, title and kind. A program reads decks of the same kind."""
     programs = [[b.name, b.title, _KINDS[b.number]] for b in BUILT_INS]
     decks = [[f"example{n}", f"example {n} of chapter 6", POINTS] for n in EXAMPLES]
-    decks += [
-        [f"example{n}/punched", f"example {n}: the cards that program 1 punched", kind] for n, kind in _PUNCHED.items()
-    ]
+    decks += [[f"example{n}/punched", f"example {n}, punched by program 1", kind] for n, kind in _PUNCHED.items()]
     for folder in _FOLDERS:
         names = sorted(path.name for path in _folder(folder).iterdir() if path.name.endswith(".deck"))
         decks += [[f"{folder}/{name[:-5]}", f"{folder}: {name[:-5]}", POINTS] for name in names]

@@ -26,13 +26,13 @@ const punchedCards = (() => {
     if (!pen) return;
     const style = getComputedStyle(canvas);
     pen.fillStyle = style.getPropertyValue("--m-card");
+    pen.strokeStyle = style.getPropertyValue("--m-print");
+    pen.lineWidth = 2;
     pen.beginPath();
-    pen.moveTo(26, 0);
-    pen.lineTo(width, 0);
-    pen.lineTo(width, height);
-    pen.lineTo(0, height);
-    pen.lineTo(0, 26);
+    for (const [x, y] of [[26, 1], [width - 1, 1], [width - 1, height - 1], [1, height - 1], [1, 26]]) pen.lineTo(x, y);
+    pen.closePath();
     pen.fill();
+    pen.stroke();
     pen.fillStyle = style.getPropertyValue("--m-print");
     pen.font = "11px monospace";
     const [step, left] = [8, 10];

@@ -121,6 +121,60 @@ def test_example_5_runs_from_the_first_deck_to_the_last_card_and_goes_back(tab: 
     tab.click("[data-look=points]")
 
 
+CLIPPED = """() => ["hopper", "stacker", "listing"].flatMap((name) => {
+  const list = document.getElementById(`desk-${name}`), range = document.createRange();
+  const edge = list.getBoundingClientRect().left + list.clientLeft + list.clientWidth;
+  return [...list.children].map((row) => {
+    range.selectNodeContents(row);
+    return [row.textContent, range.getBoundingClientRect().right];
+  }).filter(([text, right]) => right > edge && (name === "listing" || text.length <= 42)).map(([text]) => text);
+})"""
+"""The cards that leave their lists: cards of the program, and cards with at most three coordinates of 14 columns."""
+
+CUT_MENUS = """() => ["program", "deck"].flatMap((name) => {
+  const menu = document.getElementById(`desk-${name}`), pen = document.createElement("canvas").getContext("2d");
+  const style = getComputedStyle(menu);
+  pen.font = `${style.fontSize} ${style.fontFamily}`;
+  const room = menu.clientWidth - parseFloat(style.paddingLeft) - parseFloat(style.paddingRight) - 18;
+  return [...menu.options].map(({ text }) => text).filter((text) => pen.measureText(text).width > room);
+})"""
+"""The titles that are wider than their menu, whose arrow is 18 pixels wide."""
+
+
+def test_cards_menus_and_commentary_fit_their_places(tab: Page) -> None:
+    for width, program, deck in ((1280, "program1_examples", "example5"), (1280, "program3", "example5/punched")):
+        tab.set_viewport_size({"width": width, "height": 900})
+        load(tab, program, deck)
+        press(tab)
+        assert tab.evaluate(CLIPPED) == []
+        assert tab.evaluate(CUT_MENUS) == []
+        assert tab.locator(".machine ~ p").first.evaluate("one => one.clientWidth") <= 46 * 16
+        tab.set_viewport_size({"width": 360, "height": 740})
+        lines = "one => one.getBoundingClientRect().height / parseFloat(getComputedStyle(one).lineHeight)"
+        shown = tab.locator("#desk-about").evaluate(lines)
+        assert shown == pytest.approx(round(shown), abs=0.01), "no line of the commentary is cut"
+        tab.click(".m-tabs [data-view=cards]")
+        assert [card for card in tab.evaluate(CLIPPED) if len(card) <= 42] == []
+        tab.click(".m-tabs [data-view=program]")
+        tab.evaluate("scrollTo(0, document.body.scrollHeight)")
+        end = "document.querySelector('footer').getBoundingClientRect().bottom"
+        assert tab.evaluate(f"{end} < document.querySelector('.m-keys').getBoundingClientRect().top")
+    tab.set_viewport_size({"width": 1280, "height": 800})
+
+
+def test_pages_ask_for_javascript_only_without_it(chromium: Browser, served: str) -> None:
+    for is_on in (True, False):
+        context = chromium.new_context(java_script_enabled=is_on)
+        page = context.new_page()
+        # Without its scripts, the page is as it is before they run.
+        page.route("**/*.js*", lambda route: route.abort())
+        for name, state_id in (("console.html", "desk-state"), ("parting.html", "parting-says")):
+            page.goto(f"{served}/{name}")
+            message = page.inner_text(f"#{state_id}")
+            assert ("needs JavaScript" in message) is not is_on
+        context.close()
+
+
 def test_tic_tac_toe_is_won_by_typing_the_number_of_a_square(tab: Page) -> None:
     assert load(tab, "tictac.f").startswith("tictac.f")
     assert tab.input_value("#desk-deck") == "tictac.deck"
@@ -201,6 +255,7 @@ def test_the_comparison_in_the_page_equals_that_in_python(chromium: Browser, ser
         )
         for line in (*expected["says"], *expected["reason"], expected["part"]):
             assert line in page.inner_text("#parting-answer")
+        assert page.evaluate(OVERPRINTED) == []
         shown = page.locator(".parting-true").count()
         assert shown == len(expected["true"]["faces"])
     page.fill("#parting-points", "1 2")
@@ -222,6 +277,38 @@ def test_the_page_is_kept_for_a_visit_without_a_network(tab: Page) -> None:
     assert missing == []
 
 
+OVERPRINTED = """() => {
+  const picture = document.getElementById("parting-picture");
+  const dots = [...picture.querySelectorAll("circle")].map(({ cx, cy, r }) => [cx, cy, r].map((x) => x.baseVal.value));
+  return [...picture.querySelectorAll("text")].filter((text) => {
+    const { x, y, width, height } = text.getBBox();
+    const beyond = (at, from, to) => Math.max(from - at, 0, at - to);
+    // Digits fill the middle of the height of a line.
+    const [top, bottom] = [y + height / 4, y + 0.75 * height];
+    return dots.some(([a, b, radius]) => Math.hypot(beyond(a, x, x + width), beyond(b, top, bottom)) < radius);
+  }).map((text) => text.textContent);
+}"""
+"""The numbers of points over which a dot or a ring is printed."""
+
+
+def test_the_menu_names_own_points_and_numbers_are_next_to_dots(chromium: Browser, served: str) -> None:
+    page = chromium.new_page()
+    page.goto(f"{served}/parting.html")
+    assert page.locator("#parting-picture text").count() == 4
+    assert page.evaluate(OVERPRINTED) == []
+    preset = page.input_value("#parting-sets")
+    points = page.input_value("#parting-points")
+    page.fill("#parting-points", "0 0 0\n1 2 3\n")
+    assert page.input_value("#parting-sets") == "your own points"
+    page.select_option("#parting-sets", preset)
+    assert page.input_value("#parting-points").strip() == points.strip()
+    page.select_option("#parting-sets", "your own points")
+    assert page.input_value("#parting-points") == "0 0 0\n1 2 3\n"
+    page.fill("#parting-points", points)
+    assert page.input_value("#parting-sets") == preset
+    page.close()
+
+
 def test_a_point_can_be_dragged(chromium: Browser, served: str) -> None:
     page = chromium.new_page()
     page.goto(f"{served}/parting.html")
@@ -236,4 +323,5 @@ def test_a_point_can_be_dragged(chromium: Browser, served: str) -> None:
     after = page.input_value("#parting-points").split("\n")
     assert after[0] != before.split("\n")[0]
     assert after[1:] == before.split("\n")[1:]
+    assert page.input_value("#parting-sets") == "your own points"
     page.close()
