@@ -135,7 +135,7 @@ IMPOSSIBLE = positive(polynomial(0))
 
 @dataclass(frozen=True, slots=True)
 class Term:
-    """A term of a certificate: a product of named hypotheses and a factor, squared if no hypothesis is an equation."""
+    """A term of a certificate: named hypotheses times a factor, which is squared if no hypothesis is an equation."""
 
     names: tuple[str, ...]
     factor: Polynomial
@@ -187,7 +187,7 @@ class Step:
         return None
 
     def alterations(self) -> Iterator[tuple[str, Step]]:
-        """Yield altered steps: one without each hypothesis that is used, and one with the opposite conclusion."""
+        """Yield altered steps: one for each used hypothesis, which omits it, and one with the opposite conclusion."""
         for name in sorted({*self.multiplier, *(n for t in self.terms for n in t.names)}):
             rest = {key: sign for key, sign in self.hypotheses.items() if key != name}
             yield f"without {name}", replace(self, hypotheses=rest)
@@ -209,9 +209,10 @@ class Proof:
 
 
 def largest_value() -> Step:
-    """Return the step that a combination of points is largest in a linear function L only if each of the points is.
+    """Return the step that proves: if a linear L is largest at a combination of points, it is so at each of them.
 
-    The weights may have any positive sum.  A combination of more than two points is formed by combining two at a time.
+    The weights of the points may have any positive sum.  A combination of more than two points is formed by combining
+    two at a time.
     """
     w, w_p, w_q, l_x, l_p, l_q = variables("w w_p w_q L_x L_p L_q")
     return Step(

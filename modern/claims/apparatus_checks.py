@@ -109,7 +109,10 @@ _CONDITION = re.compile(r"A_(\d)x_(\w)\+B_\1y_\2\+C_\1z_\2\+D_\1[<>]0")
 
 
 def _arithmetic(row: Row, lines: tuple[Line, ...]) -> bool:
-    """Return True if each condition has four terms, and if leaving z and D out would falsify one at the named point."""
+    """Return True if each condition has four terms, A x + B y + C z + D, and if A x + B y + C has the opposite sign.
+
+    The signs are those for the plane and the point that the ground of the row names.
+    """
     theorem = next(t for t in chapter4.load_theorems() if t.id == row.ground["theorem"])
     plane, point = theorem.plane(row.ground["equation"]), theorem.point(row.ground["point"])
     assert point is not None

@@ -94,10 +94,11 @@ def proved(argument: str, steps: Iterable[object], message: str) -> Check:
 
 
 def identity(difference: Callable[..., int], degrees: Sequence[int], message: str) -> Check:
-    """Return the check of a polynomial identity; ``difference`` is one side minus the other, with the given degrees.
+    """Return the check of a polynomial identity; ``degrees`` are those of ``difference`` in its variables.
 
-    A polynomial of degree d in a variable that vanishes at d + 1 values of it vanishes at all values.  So the
-    difference is zero everywhere if it is zero on a grid with d + 1 values for each variable.
+    ``difference`` computes one side of the identity minus the other.  A polynomial of degree d in a
+    variable that vanishes at d + 1 values of it vanishes at all values.  So the difference is zero everywhere if it is
+    zero on a grid with d + 1 values for each variable.
     """
     values = [difference(*point) == 0 for point in product(*(range(-(d // 2), d - d // 2 + 1) for d in degrees))]
     argument = (
@@ -172,7 +173,7 @@ def _smaller(case: Any) -> Iterator[Any]:
 
 @dataclass(frozen=True, slots=True)
 class Decision:
-    """A check with its arguments for one statement; ``full`` is the number of cases of the full search, or 0."""
+    """A check with its arguments for one statement; ``full`` is the number of cases of its full search, or 0."""
 
     statement: str
     function: Callable[..., Check]

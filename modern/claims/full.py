@@ -96,7 +96,7 @@ def _used(module: str, name: str) -> Set[tuple[str, str]]:
 
 @cache
 def imports(module: str) -> dict[str, tuple[str, str]]:
-    """Return the names that a module imports from this package, each with its module and its name there."""
+    """Return the names that a module imports from this package, each with the module and the name of its definition."""
     return {
         alias.asname or alias.name: (node.module, alias.name)
         for node in ast.parse(getsource(import_module(module))).body
@@ -142,7 +142,7 @@ def _table(results: Mapping[str, FullSearch]) -> str:
 
 
 def outstanding(results: Mapping[str, FullSearch]) -> Iterator[str]:
-    """Yield the names of searches that have no recorded result, or whose result was computed from other sources."""
+    """Yield the names of searches that have no recorded result, or whose result was computed by other code."""
     for name, (decision, ids) in searches().items():
         done = results.get(name)
         if done is None or done.sources != sources_of(decision) or done.statements != " ".join(ids):

@@ -65,7 +65,7 @@ def is_sphere(faces: Iterable[Sequence[object]]) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class HalfBall:
-    """A row of Table 5 of Kovalevsky and Schulz: a digitised half-ball and the sizes of its hull."""
+    """A row of Table 5 of Kovalevsky and Schulz: a digitised half-ball, and sizes of two descriptions of its hull."""
 
     diameter: int
     triangles: int
@@ -76,11 +76,11 @@ class HalfBall:
 
     @property
     def corners(self) -> Fraction:
-        """The number of vertices that formula (6) implies: integers = 3 V + 5 F."""
+        """The number V of vertices that formula (6) of the paper, integers = 3 V + 5 F, implies for F faces."""
         return Fraction(self.integers - 5 * self.faces, 3)
 
     def has_quarter_turns(self) -> bool:
-        """Return True if quarter turns can map the body to itself: an apex and two faces may stay in place."""
+        """Return True if quarter turns can map the body to itself: one face and an apex, or two faces, are fixed."""
         top = self.faces % 4 - 1
         return top in (0, 1) and self.corners % 4 == 1 - top
 
@@ -95,7 +95,7 @@ def half_balls() -> Iterator[HalfBall]:
 
 @claim("kovalevsky-schulz.171")
 def table_5() -> Check:
-    """Check that each row of Table 5 has 4.5 integers for each triangle and 3 V + 5 F integers for its cell list."""
+    """Check that each row of Table 5 has 4.5 integers for each triangle, and 3 V + 5 F for V vertices and F faces."""
     outcomes: list[Outcome] = []
     for row in half_balls():
         hundredths = Fraction(100 * row.integers, row.faces)
@@ -109,14 +109,17 @@ def table_5() -> Check:
 
 @claim("kovalevsky-schulz.89")
 def points_at_diameter_14() -> Check:
-    """Check that Table 5 counts more points for diameter 14 than a convex polyhedron with its faces has vertices."""
+    """Check that Table 5 implies more vertices for diameter 14 than a convex polyhedron can have with its faces."""
     row = next(row for row in half_balls() if row.diameter == 14)
     message = f"{row.corners} points and {row.faces} faces, which allow {2 * row.faces - 4} vertices"
     return exhibited(not may_be_convex(int(row.corners), row.faces), message)
 
 
 def numbers_of_ball() -> list[int]:
-    """Return the printed counts of the ball of diameter 32: voxels, local corners, triangles and faces."""
+    """Return the printed counts of the ball of diameter 32.
+
+    They are the numbers of voxels, of local corners by 6 and by 26 neighbours, of triangles and of faces.
+    """
     printed = corrected_print("kovalevsky-schulz")
     names = ("ball-voxels", "ball-corners-6", "ball-corners-26", "ball-triangles", "ball-faces")
     return [
@@ -169,7 +172,10 @@ def cell_list() -> Check:
 
 @claim("kovalevsky-schulz.83", "kovalevsky-schulz.84")
 def table_4() -> Check:
-    """Check that the triangles and the hull of Table 4 can be closed surfaces, with integers by (5) and (6)."""
+    """Check the printed sizes in Table 4 of Kovalevsky and Schulz against formulas (5) and (6) of their paper.
+
+    (5) gives the number of integers for a triangulation, and (6) for a cell list.  Both surfaces must also be possible.
+    """
     printed = corrected_print("kovalevsky-schulz")
     triangles, corners, integers = numbers_in(printed["table4-triangulation"][0])
     outcomes = [("(5)", 2 * integers == 9 * triangles and abs(triangles - 2 * corners) <= 20)]
@@ -179,7 +185,7 @@ def table_4() -> Check:
 
 
 def counts_in_table_1(scene: str) -> list[int]:
-    """Return the printed numbers of polyhedra, vertices, faces and points of figures of a scene of Table 1."""
+    """Return four printed counts for a scene of Table 1: polyhedra, vertices, faces, and points of figures on faces."""
     return numbers_in(corrected_print("nakamae-nishita")[f"table1-{scene}"][0].split(")")[1])
 
 
@@ -207,7 +213,7 @@ def _columns(rows: Sequence[str]) -> list[list[int]]:
 
 
 def is_closed_loop(loop: Sequence[int], lines: Mapping[int, tuple[int, int]]) -> bool:
-    """Return True if each signed line of a loop begins at the end of the line before it."""
+    """Return True if each line of a loop begins at the end of the one before; a negative number reverses its line."""
     ways = [lines[abs(n)][:: 1 if n > 0 else -1] for n in loop]
     return all(here[0] == before[1] for before, here in zip([ways[-1], *ways], ways, strict=False))
 
@@ -244,7 +250,7 @@ def lines_and_loops(number: int) -> Check:
 @claim("thesis.176", example=5)
 @claim("thesis.177", example=6)
 def example_of_chapter_6(example: int) -> Check:
-    """Check that the printed vertices and equations of an example describe a closed surface of all points."""
+    """Check that the printed vertices and equations describe a closed surface, and that all points are classified."""
     hull = read_hull([result for result in prints(example) if result.device == "punch"][-1].lines)
     rings = [ring for ring, _ in hull.satisfied]
     at = Counter(v for ring in rings for v in ring)
@@ -264,7 +270,7 @@ def example_of_chapter_6(example: int) -> Check:
 
 @claim("thesis.150")
 def table_of_theorem_4_8() -> Check:
-    """Check that the numbers in the table of theorem 4.8 satisfy Euler's formula and V <= 2 F - 4."""
+    """Check that the printed points and planes of theorem 4.8 can be the vertices and faces of a convex polyhedron."""
     data = next(data for data in load_theorems() if data.id == "4.8")
     hull = [p for p in data.points if p.name != "Q9"]
     on = [sum(plane.at(p) == 0 for p in hull) for plane in data.planes]

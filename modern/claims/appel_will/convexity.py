@@ -135,13 +135,13 @@ def _convex_points(ring: Sequence[Flat]) -> list[Flat]:
 
 
 def _passes(ring: Sequence[Flat]) -> list[list[Flat]]:
-    """Return the polygon after each pass, until one deletes nothing."""
+    """Delete the nonconvex corners of a polygon in passes until none is left; return the polygon after each pass."""
     remaining = _convex_points(ring)
     return [remaining] if len(remaining) in (len(ring), 2) else [remaining, *_passes(remaining)]
 
 
 def _crosses(ring: Sequence[Flat]) -> bool:
-    """Return True if two sides of a polygon of distinct points meet that are not neighbours."""
+    """Return True if two sides that are not neighbours meet; the corners of the polygon must be distinct."""
     apart = ((p, q, r, s) for (p, q), (r, s) in combinations(sides(ring), 2) if q != r and s != p)
     return any(area(p, q, r) * area(p, q, s) <= 0 and area(r, s, p) * area(r, s, q) <= 0 for p, q, r, s in apart)
 
@@ -183,7 +183,7 @@ def polyhedron_property(number: str, cases: int = 2 * CASES) -> Check:
 
 
 def _cones(points: Sequence[Point], judge: ExactHull) -> list[bool]:
-    """Return, for each vertex, whether the planes through it form a cone that contains all points of the set."""
+    """Return, for each vertex, whether its planes have all points on one side, and whether it alone is on them all."""
     checks = []
     for k in judge.vertices:
         planes = [f.plane for f in judge.facets if k in f.polygon]
@@ -231,7 +231,7 @@ def number_of_combinations() -> Check:
 
 
 def holds_origin(images: Iterable[Flat]) -> bool:
-    """Return True if the origin is no vertex of the hull of the origin and the images."""
+    """Return True if the origin is not a vertex of the hull that the origin and the images of points form."""
     flat = [(a, b, 0) for a, b in {*images}]
     return len(flat) not in exact_hull([*flat, (0, 0, 0)]).vertices
 

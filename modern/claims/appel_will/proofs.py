@@ -222,7 +222,7 @@ def concave_point() -> Proof:
 @claim("appel-will.31", proof=projections)
 @claim("appel-will.38", proof=fewer_pairs)
 @claim("appel-will.72", proof=three_planes)
-@claim("appel-will.74", proof=outside_corners)
+@claim("appel-will.73", "appel-will.74", proof=outside_corners)
 @claim("appel-will.75", proof=concave_point)
 @claim("appel-will.85", "appel-will.140", proof=inside_corner)
 @claim("appel-will.157", proof=product_of_lines)

@@ -6,7 +6,7 @@ from collections.abc import Collection, Sequence
 from itertools import combinations, pairwise, product
 
 from modern.claims.appel_will.convexity import CUBE, RINGS, Flat
-from modern.claims.appel_will.proofs import least_surface, outside_corners
+from modern.claims.appel_will.proofs import least_surface
 from modern.claims.evidence import Check, claim, exhibited, refuted, search, slip
 from modern.claims.hulls import exact_hull
 from modern.claims.invariants import corrected_print, is_sphere, numbers_in
@@ -77,7 +77,7 @@ def changes_of_hull() -> Check:
 
 
 def _changes(solid: Solid) -> tuple[int, int, int]:
-    """Return three numbers: points that are no vertices of the hull, and new lines and planes of the hull."""
+    """Count a solid's points that are no vertices of its hull, and the hull's edges and planes that the solid lacks."""
     points, judge = solid.points, exact_hull(solid.points)
     polygons = [facet.polygon for facet in judge.facets], solid.surfaces
     hull_planes, planes = ({_plane_of(points, polygon) for polygon in part} for part in polygons)
@@ -127,7 +127,7 @@ def _surfaces_at_lines(solid: Solid) -> Counter[frozenset[int]]:
 
 
 def solid_of_cubes(cubes: Collection[tuple[int, ...]]) -> Solid:
-    """Return the solid that unit cubes fill; its surfaces are the squares that belong to one cube only."""
+    """Return the solid that unit cubes fill; its surfaces are the sides that belong to one cube only."""
     squares: Counter[frozenset[tuple[int, ...]]] = Counter()
     for cube, axis, side in product(cubes, range(3), (0, 1)):
         corners_ = (tuple(c + d for c, d in zip(cube, way, strict=True)) for way in CUBE if way[axis] == side)
@@ -151,23 +151,6 @@ def surface_of_star() -> Check:
     surface, around = len(star.surfaces), sum(math.hypot(*normal) for normal in normals) / 2
     case = f"a star with three arms of cubes, whose surface is {surface}, whereas that of its hull is {around:.0f}"
     return least_surface().check().unless(surface < around, case)
-
-
-# The base of a pyramid: a hexagon with two concave points.
-HOURGLASS: tuple[Point, ...] = ((-4, -4, 0), (0, -1, 0), (4, -4, 0), (4, 4, 0), (0, 1, 0), (-4, 4, 0))
-
-
-@claim("appel-will.73")
-def two_inside_corners() -> Check:
-    count = len(HOURGLASS)
-    surfaces = (tuple(range(count))[::-1], *((a, b, count) for a, b in sides(range(count))))
-    points = (*HOURGLASS, (0, 0, 4))
-    at = Counter(end for corner in preprocess(points, surfaces, "two").inside for end in corner.line.ends)
-    refutes = at[count] == 2 and count in exact_hull(points).vertices
-    case = (
-        "the apex of a pyramid on a hexagon with two concave points: a vertex of the hull on exactly 2 inside corners"
-    )
-    return outside_corners().check().unless(refutes, case)
 
 
 @claim("appel-will.152")

@@ -47,17 +47,17 @@ def interior(cells: set[Cell]) -> set[Cell]:
 
 
 def farthest_ground_cell(cell: Cell) -> Cell:
-    """Return the incident cell of the highest dimension that is farthest from the origin."""
+    """Return, of the cells of the highest dimension that a cell bounds, the one that is farthest from the origin."""
     return max(product(*((c,) if c % 2 else (c - 1, c + 1) for c in cell)), key=sum)
 
 
 def _halved(cells: Iterable[Cell], dimension_: int) -> set[Cell]:
-    """Return the coordinates, without the factor 2, of the cells of one dimension."""
+    """Return the coordinates of the cells of one dimension, divided by 2 and rounded down."""
     return {tuple(c // 2 for c in cell) for cell in cells if dimension(cell) == dimension_}
 
 
 def _complex(solid: Iterable[Point]) -> set[Cell]:
-    """Return all cells of the complex M whose ground cells are the voxels of a solid."""
+    """Return all cells of the complex M of a solid: its voxels and the cells that bound them."""
     return closure((2 * x + 1, 2 * y + 1, 2 * z + 1) for x, y, z in solid)
 
 
@@ -159,7 +159,7 @@ def is_complex(cells: Complex) -> bool:
 
 
 def complexes(k: int) -> Iterator[Complex]:
-    """Yield all k-complexes of up to four cells, except for the order of the cells.
+    """Yield all k-complexes of up to four cells, with the cells in the order of their dimensions.
 
     A k-complex has cells of dimensions up to k (Definition ACC).
     """

@@ -132,7 +132,7 @@ def section_angles(cases: int = CASES) -> Check:
 
 
 def _cosine(u: Sequence[int | Fraction], v: Sequence[int | Fraction]) -> Fraction:
-    """Return the square of the cosine of an angle."""
+    """Return the square of the cosine of the angle between two vectors."""
     uv, uu, vv = (sum(a * b for a, b in zip(p, q, strict=True)) for p, q in ((u, v), (u, u), (v, v)))
     return Fraction(uv * uv) / (Fraction(uu) * vv)
 

@@ -76,7 +76,10 @@ def polyhedra(boxes: tuple[Box, ...], thing: str = "") -> list[Polyhedron]:
 
 
 def _inside(point: list[Fraction], box: Box) -> tuple[Fraction, Fraction]:
-    """Return where the line from a point towards the eye enters and leaves a box; it misses it if first >= last."""
+    """Return where the line from a point towards the eye enters and leaves a box.
+
+    The line misses the box if the first number is not smaller than the second.
+    """
     ranges = [sorted(((a - p) / s, (b - p) / s)) for p, a, b, s in zip(point, *box, EYE, strict=True)]
     return max(first for first, _ in ranges), min(last for _, last in ranges)
 
@@ -172,9 +175,9 @@ def _image(box: Box) -> tuple[tuple[int, int], ...]:
 
 
 def order_on_lines_of_sight(cases: int) -> Check:
-    """Check that on every line of sight through two boxes their order is that at the intersection of their images.
+    """Check that the box that is nearer where the images of two boxes cross is nearer on every line of sight.
 
-    The lines of sight pass through the points of the nearer and the farther box whose coordinates are integers.
+    The lines of sight pass through both boxes, and through a point of one box whose coordinates are integers.
     """
 
     def have_one_order(boxes: tuple[Box, ...]) -> bool:
@@ -185,7 +188,7 @@ def order_on_lines_of_sight(cases: int) -> Check:
 
 
 def _orders(*pair: Box) -> Iterator[int]:
-    """Yield, for each sampled line of sight through V and V', 1 if V is nearer, -1 if V' is, and 0 if they mix."""
+    """Yield, for each sampled line of sight through V and V', 1 if V is nearer, -1 if V' is, and 0 if neither is."""
     for low, high in pair:
         for point in product(*(range(a, b + 1) for a, b in zip(low, high, strict=True))):
             (first_v, last_v), (first_w, last_w) = (_inside([*map(Fraction, point)], box) for box in pair)

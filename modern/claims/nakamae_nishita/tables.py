@@ -1,6 +1,6 @@
 """Checks of Nakamae and Nishita on two contours: correlations, formulas (1) to (5), and the tables PL and LP.
 
-A table has the side of each line of one contour on which each vertex of the other contour lies.
+An entry of a table tells on which side of a line of one contour a vertex of the other contour lies.
 """
 
 from collections.abc import Iterator, Sequence
@@ -57,7 +57,7 @@ POLYGONS = Generator("convex polygons with coordinates from -2 to 6", 32, _draw_
 
 @cache
 def polygons(count: int = CASES) -> tuple[tuple[Place, ...], ...]:
-    """Return ``count`` convex polygons, listed clockwise: the squares above and random polygons."""
+    """Return the five polygons of this module and ``2 * count`` random convex polygons, all with clockwise corners."""
     return (SQUARE, WITHIN, ACROSS, BESIDE, AGAINST, *POLYGONS.cases(2 * count))
 
 
@@ -234,9 +234,10 @@ def table_properties(number: str, cases: int = CASES) -> Check:
 def _property(
     number: str, v: tuple[Place, ...], w: tuple[Place, ...], of_lines: Rows, met: Rows
 ) -> tuple[list[bool], bool]:
-    """Return the results for one pair of polygons, and True if lines without an intersection touch the other polygon.
+    """Return whether a property of the tables holds in each case, and whether a line that must not cross w touches it.
 
-    ``of_lines`` has the signs of the vertices of w for each line of v, and ``met`` the values of d for the lines of w.
+    ``of_lines`` has, for each line of v, the signs of the vertices of w. ``met`` has the values of d, formula (3), for
+    each line of v and each line of w.
     """
     if number == "1":
         return [all(1 in line for line in of_lines) or not overlap(v, w)], False

@@ -85,7 +85,7 @@ def third_new_plane() -> Check:
 
 
 def _steps(sampled: SampledSet) -> Iterator[tuple[Approximation, Approximation, Stage, int]]:
-    """Yield, for each hull H_j except the first: the hull before it, H_j, the port's record, and the added point."""
+    """Yield, for each hull H_j except H_1: the hull before it, H_j, its record in ``history``, and the added point."""
     stages = sampled.stages()
     for before, after, record in zip(stages, stages[1:], sampled.hull.history[1:], strict=False):
         yield before, after, record, record.added[0]

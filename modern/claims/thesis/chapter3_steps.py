@@ -133,7 +133,7 @@ def outside_convention() -> Check:
 def between_by_distances() -> Check:
     """Prove that sums of distances tell which of three collinear points lies between the others.
 
-    Positions on the line are written as amounts of the two distances u and v between neighbouring points.
+    A position a u + b v on the line is written as (a, b); u and v are the distances between neighbouring points.
     """
     steps = []
     for mm, nn, i in permutations(((0, 0), (1, 0), (1, 1))):
@@ -190,7 +190,7 @@ def planes_at_common_edge(cases: int = CASES) -> Check:
 
 
 def _visible(cases: int) -> Iterator[tuple[SampledSet, Approximation, Approximation, list[int]]]:
-    """Yield each step together with the planes that the added point is outside of (page 31)."""
+    """Yield each set with two successive hulls and the numbers of the planes that the added point is outside of."""
     for sampled in sampled_sets(3, cases):
         for before, after in zip(sampled.stages(), sampled.stages()[1:], strict=False):
             point = sampled.points[after.vertices[-1]]

@@ -175,7 +175,7 @@ def first_hull_against_extremes(cases: int = 4) -> Check:
 
 
 def _volumes_and_planes(points: Sequence[Point]) -> tuple[tuple[int, int], tuple[int, int]]:
-    """Return six times the volume and the number of planes of H_1 and of the hull of the six extreme points."""
+    """Return six times the volume and the number of planes of H_1, then those of the hull of the six extreme points."""
     first = [points[k] for k in convex_hull(points, history=True).history[0].added]
     measures = []
     for some in (first, _extreme_points(points)):

@@ -272,7 +272,7 @@ def slips_of_4_8(which: str) -> Check:
 
 
 def _is_one(name: str, at: tuple[int, int, int]) -> bool:
-    """Return True if a point of theorem 4.8 has the given coordinates and satisfies each equation that names it."""
+    """Return True if a point of theorem 4.8 has the given coordinates and is on each plane that names it."""
     theorem = theorem_of("4.8")
     point = _point(theorem, name)
     values = [plane.at(point) for plane in theorem.planes if name in plane.vertices]

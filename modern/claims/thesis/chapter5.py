@@ -290,7 +290,7 @@ def comments_of_steps(name: str) -> Check:
 
 
 def _translated(name: str) -> Program:
-    """Compile a program with the translation; program 1 does not change."""
+    """Compile a program with its layer ``translation``, which moves the origin; program 1 has no such layer."""
     return programs.program(name, () if name == "program1" else ("translation",))
 
 

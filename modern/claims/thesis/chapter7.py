@@ -119,7 +119,7 @@ def entries_of_plane_table() -> int:
 
 
 def plane_through_c() -> Check:
-    """Check that a run ends with an error (KNOWN-FAULTS 3) if a plane contains the inside point C; a hull exists."""
+    """Check that a run ends with an error (KNOWN-FAULTS 3) at a plane through the inside point C; yet a hull exists."""
     message = typed(run_of("throughc.deck"))
     points = points_on(deck_of("throughc.deck"))
     judge = exact_hull(points)
@@ -357,7 +357,7 @@ def orientation_by_constant_term(cases: int = CASES) -> Check:
 @claim("thesis.163", part="digits")
 @claim("thesis.161", part="columns")
 def data_sheet(part: str) -> Check:
-    """Check the numbers, the digits of a number, or the columns of the fields of the cards on pages 58 and 59."""
+    """Check the sample cards of pages 58 and 59: their values, the digits of one number, or the columns of z."""
     if part == "columns":
         z = max(z for _, _, z in read_hull(run_of("z_in_39.deck").final.result.punched).vertices)
         deck = deck_with([(3, 12, 1)])

@@ -52,7 +52,7 @@ def _lattice(side: int) -> list[Lattice]:
 
 
 def coplanar_extremes() -> Iterator[bool]:
-    """Yield, for each way in which extremes can coincide, whether a set in space has such coplanar extremes."""
+    """Yield, for each way in which extremes can coincide, whether a set not in a plane has such extremes in a plane."""
     on_planes: list[dict[frozenset[Extreme], Lattice]] = [
         {_extremes_of(p): p for p in _lattice(SIDE) if dot(normal, p) == d} for normal, d in PLANES
     ]

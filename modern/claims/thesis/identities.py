@@ -163,7 +163,7 @@ def coordinates_of_figure_3() -> Proof:
 
 
 def _c_0(a: Point, b: Point, k: Point) -> Polynomial:
-    """Return C_0 of three points of a coordinate plane as page 46 prints it."""
+    """Return C_0 of three points as page 46 prints it, from two coordinates of each point."""
     return a[0] * b[1] + b[0] * k[1] + a[1] * k[0] - b[1] * k[0] - a[0] * k[1] - b[0] * a[1]
 
 
@@ -213,7 +213,7 @@ def sum_of_page_46() -> Check:
 
 
 def _v(x: Point, i: Point) -> Polynomial:
-    """Return V of pages 14 and 41; ``x`` has the index 1 or i of the first factors, ``i`` that of the others."""
+    """Return the value V of pages 14 and 41 with the point ``x`` in its first factors and ``i`` in the others."""
     u, w, first = minus(Q, P), minus(Q, i), minus(Q, x)
     rows = (first[1] * u[2] - w[2] * u[1], first[2] * u[0] - w[0] * u[2], first[0] * u[1] - w[1] * u[0])
     return dot(rows, rows)

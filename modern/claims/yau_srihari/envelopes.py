@@ -198,7 +198,7 @@ def supporting_planes(cases: int = 5) -> Check:
 
 @claim("yau-srihari.67", full=500)
 def rule_1(cases: int = 5) -> Check:
-    """Check that a face is on one side of its directed edges, as seen from below, and that no other face has them."""
+    """Check that each face, seen from below, is on the same side of its directed edges, which no other face has."""
 
     def are_opposite(voxels: tuple[Point, ...]) -> bool:
         faces = hull_of(voxels).lower.faces

@@ -59,7 +59,7 @@ def envelope_algorithm(of_ceiling: bool, cases: int = 2) -> Check:
 
 
 def _is_wrong(name: str, of_ceiling: bool) -> bool:
-    """Return True if a step as printed gives a wrong envelope of its counterexample, upright or upside down."""
+    """Return True if a step as printed gives a wrong envelope of its counterexample or of its mirror image in z."""
     upright = array_of(counterexample_points(f"yau_{name}.csv"))
     both = [[octree_hull(array, p) for p in (Printed(), Printed.only(name))] for array in (upright, upright[..., ::-1])]
     trees = [[heights((hull.upper if of_ceiling else hull.lower).tree) for hull in hulls] for hulls in both]
@@ -91,7 +91,7 @@ def extreme_in_row_and_column(cases: int = 6) -> Check:
 
 
 def _extreme(place: Place, axis: int, heights_: Mapping[Place, int]) -> bool:
-    """Return True if a point is a vertex of the lower chain of its row or column."""
+    """Return True if a point is a vertex of the lower hull of the points in its row or column."""
     at, z = place[axis], heights_[place]
     line = [(p[axis], h) for p, h in heights_.items() if p[1 - axis] == place[1 - axis]]
     around = product([entry for entry in line if entry[0] < at], [entry for entry in line if entry[0] > at])
@@ -99,7 +99,7 @@ def _extreme(place: Place, axis: int, heights_: Mapping[Place, int]) -> bool:
 
 
 class _Counted(Search):
-    """A search that counts the points whose angles it computes; ``angles`` also counts those of bounds."""
+    """A search that counts the points whose angles it computes; ``angles`` also counts the angles of bounds."""
 
     taken = 0
 
@@ -122,7 +122,11 @@ def angle_counts(cases: int = 3) -> Check:
 
 
 def _angles(hull: OctreeHull) -> tuple[int, int, int, int]:
-    """Return the numbers of angles of all points beyond the edges, of points of A, of points searched, and of all."""
+    """Return four numbers of angles for all edges of the lower envelope.
+
+    They count all points beyond the edge, such points of the reduced set A, the points that the search visits, and the
+    latter together with the bounds of the search.
+    """
     reduced = written(no_columns(hull.side), {(x, y): Leaf(z) for x, y, z in hull.lower.reduced})
     searches = [_Counted(*step.edge, step.normal, Printed()) for step in hull.lower.steps]
     # Without the search, the angles of all points beyond the edge are computed.
