@@ -8,7 +8,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from modern.geometry.mesh import ExportError, sides
@@ -128,6 +128,7 @@ def crosses(p, q, r, s) -> bool:
 
 
 @settings(deadline=None, max_examples=10)
+@example(560)
 @given(st.integers(0, 10**6))
 def test_no_two_lines_of_the_map_cross_and_every_region_is_convex(seed: int) -> None:
     hull = appel_will(scattered(seed, 16))
@@ -144,7 +145,9 @@ def test_no_two_lines_of_the_map_cross_and_every_region_is_convex(seed: int) -> 
             ring = [places[k] for k in surface]
             for p, q, r in zip(ring, ring[1:] + ring[:1], ring[2:] + ring[:2], strict=True):
                 turn = (q[0] - p[0]) * (r[1] - q[1]) - (q[1] - p[1]) * (r[0] - q[0])
-                signs[order == outer, turn > 0] += 1
+                # The positions are floats of size 1; a turn below 1e-9 may have the wrong sign and cannot be seen.
+                if abs(turn) > 1e-9:
+                    signs[order == outer, turn > 0] += 1
         assert len(signs) == 2, signs
 
 
