@@ -162,7 +162,8 @@ class _Translation:
             if not isinstance(statement.body, tree.Format):
                 continue
             if positions > CORES[-1]:
-                self._error(statement.place, f"OVERLAP: the FORMATs need {positions} positions, more than any 1620 has")
+                message = f"OVERLAP: the FORMATs need {positions} positions of core, more than any 1620 has"
+                self._error(statement.place, message)
                 break
             if not statement.label:
                 self._error(statement.place, "a FORMAT needs a statement number", 10)

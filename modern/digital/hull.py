@@ -169,7 +169,7 @@ def _truth(array: NDArray[Any]) -> Truth:
             f"with {array.ndim} axes"
         )
     if array.size > MAX_VOXELS:
-        raise VolumeError(f"a volume of more than {MAX_VOXELS} voxels has no exact hull in 64 bits")
+        raise VolumeError(f"the exact hull of more than {MAX_VOXELS} voxels cannot be computed in 64 bits")
     if array.dtype.kind == "f" and np.isnan(array).any():
         raise VolumeError("a value is not a number (nan), so its voxel cannot be classified")
     truth: Truth = array if array.dtype == np.bool_ else array != 0

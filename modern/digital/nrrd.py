@@ -87,7 +87,7 @@ def parse_nrrd(data: bytes, source: str) -> Scan:
     kind = _type(fields, source)
     for name in ("line skip", "byte skip"):
         if name in fields and _number(fields, name, source):
-            raise VolumeError(f"{source}: line {fields[name][0]}: {name}: only 0 is supported")
+            raise VolumeError(f"{source}: line {fields[name][0]}: {name}: only the value 0 is supported")
     if "data file" in fields:
         if not body and not data.endswith((b"\n", b"\r")):
             raise VolumeError(f"{source}: the header is truncated: its last line lacks a line break")

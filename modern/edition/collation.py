@@ -226,7 +226,8 @@ def from_json(text: str, source: str) -> Collation:
         if data["format"] != FORMAT:
             raise ValueError(data["format"])
         if data["edition"] != _edition():
-            raise ApparatusError(f"{source}: was made for other cards of the listings; collate the transcription again")
+            message = "the collation was made for other cards of the listings; collate the transcription again"
+            raise ApparatusError(f"{source}: {message}")
         cards = tuple(_card(n, raw) for n, raw in enumerate(data["cards"]))
         return Collation(data["id"], data["file"], data["sha256"], int(data["lines"]), cards)
     except (ValueError, KeyError, TypeError, IndexError) as error:

@@ -68,7 +68,7 @@ def rank(vectors: Iterable[Sequence[int]]) -> int:
 
 def _check_integers(points: Coordinates, hull: ExactHull) -> None:
     least = hull.scale == points.scale and points.is_least_scale()
-    require(least, "the scale is not the least that makes every coordinate an integer")
+    require(least, "the scale is not the least number that makes every coordinate an integer")
     require(len(hull.scaled) == len(points), f"expected {len(points)} scaled points, found {len(hull.scaled)}")
     if isinstance(hull.scaled, Coordinates) and hull.scaled == points:
         return
@@ -83,7 +83,7 @@ def _check_classes(points: Coordinates, hull: ExactHull) -> None:
     require(all(len(pair) == 2 for pair in hull.duplicates), "a duplicate is not a pair of indices")
     for name in ("vertices", "boundary", "inside", "duplicates"):
         members = getattr(hull, name)
-        require(list(members) == sorted(members), "{} is not sorted", name)
+        require(list(members) == sorted(members), "the list {} is not sorted", name)
     members = [*hull.vertices, *hull.boundary, *hull.inside, *(index for index, _ in hull.duplicates)]
     complete = len(members) == len(points) and set(map(type, members)) == {int} and min(members) >= 0
     complete = complete and max(members) < len(points) and bool(np.bincount(members, minlength=len(points)).all())
@@ -106,7 +106,7 @@ def _check_dimension(hull: ExactHull) -> None:
         dimension = rank(difference(point, origin) for point in hull.scaled)
     require(
         hull.dimension == dimension,
-        f"the dimension is stated as {hull.dimension}, but the points have rank {dimension}",
+        f"the dimension is stated as {hull.dimension}, but that of the points is {dimension}",
     )
     require((hull.plane is not None) == (dimension == 2), "a plane must be stated for dimension 2, and only then")
     require(bool(hull.polygon) == (dimension == 2), "a polygon must be stated for dimension 2, and only then")
@@ -157,7 +157,9 @@ def _check_points(hull: ExactHull) -> Planes:
         raise CertificateError(f"point {index} is {where} a facet, which contradicts its class")
     for index, around in normals.items():
         require(
-            rank(around) == hull.dimension, "point {} is called a vertex, but its planes do not determine it", index
+            rank(around) == hull.dimension,
+            "point {} is called a vertex, but the planes through it meet in more than one point",
+            index,
         )
     return planes
 
@@ -195,7 +197,8 @@ def _check_polygon(hull: ExactHull) -> int:
             raise CertificateError(f"point {index} is not in the polygon's plane")
     cycle = hull.polygon
     require(
-        sorted(cycle) == list(hull.vertices) and cycle[0] == min(cycle), "the polygon is not an order of the vertices"
+        sorted(cycle) == list(hull.vertices) and cycle[0] == min(cycle),
+        "the polygon does not name every vertex once, beginning with the smallest index",
     )
     check_convex(cycle, normal, hull.scaled, "the polygon")
     # The facets of a polygon are its edges, with planes at right angles to its own.

@@ -169,7 +169,8 @@ def _text(data: bytes, start: int, source: str) -> Reader:
                 length = count(source, line, tokens[position])
                 position += 1
             if position + length > len(tokens):
-                raise error(source, line, tokens[-1], f"the {element.name} ends after {len(values)} of its properties")
+                message = f"the {element.name} ends after {len(values)} of {len(element.properties)} properties"
+                raise error(source, line, tokens[-1], message)
             values.append(tokens[position : position + length] if size else tokens[position])
             position += length
         return line, values

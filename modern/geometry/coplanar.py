@@ -119,8 +119,8 @@ def join(surface: Mesh, within: Fraction) -> Joined:
         groups.append(group)
     if len(groups) < _LEAST:
         raise CoplanarError(
-            f"within {distance_text(within)} the {len(normals)} faces would become {len(groups)}; "
-            "a solid has at least four"
+            f"within {distance_text(within)} the {len(normals)} faces would become {len(groups)} faces; "
+            "a solid has at least four faces"
         )
     groups.sort(key=min)
     loops = tuple(_loop(surface, group, within) for group in groups)

@@ -72,7 +72,7 @@ class _Reader:
     def read(self, position: int, count: int) -> bytes:
         if position + count > self.size:
             raise VolumeError(
-                f"{self.path}: truncated: expected {count} bytes at {position}, but the file has {self.size}"
+                f"{self.path}: truncated: expected {count} bytes at position {position}; the file has {self.size} bytes"
             )
         self.file.seek(position)
         return self.file.read(count)
@@ -131,7 +131,7 @@ class _Reader:
         if _TILES[0] in page:
             tile_width, rows = _one(page, _TILE_WIDTH, source), _one(page, _TILE_HEIGHT, source)
             if min(tile_width, rows) < 1:
-                raise VolumeError(f"{source}: invalid tiles of {tile_width} x {rows}")
+                raise VolumeError(f"{source}: invalid tiles of {tile_width} x {rows} pixels")
             pieces, row_bytes = -(-width // tile_width) * -(-height // rows), -(-tile_width * bits // 8)
             lengths = [rows * row_bytes] * (pieces * planes)
         else:

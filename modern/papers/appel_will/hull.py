@@ -48,7 +48,7 @@ def printed(*names: str) -> Method:
     """
     unknown = [name for name in names if name not in PRINTED]
     if unknown:
-        raise ValueError(f"{quoted(unknown[0])} is not one of {', '.join(PRINTED)}")
+        raise ValueError(f"{quoted(unknown[0])} is not one of the names {', '.join(PRINTED)}")
     return Method(as_printed if "star" in names else in_one_pass, frozenset(names) - {"star"})
 
 

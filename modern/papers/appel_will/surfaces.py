@@ -88,7 +88,7 @@ def oriented(points: Sequence[IntPoint], surfaces: Sequence[Surface]) -> tuple[S
         if len(numbers) != 2:
             line_name = "-".join(str(end + 1) for end in sorted(ends))
             count = f"{len(numbers)} surface{'s' if len(numbers) > 1 else ''}"
-            raise MapError(f"surface {numbers[0] + 1}: line {line_name} lies on {count}, expected 2")
+            raise MapError(f"surface {numbers[0] + 1}: line {line_name} lies on {count}, expected 2 surfaces")
     consistent = _one_sense(surfaces, surfaces_at)
     # Six times the signed volume is the sum over the cones from the origin to the surfaces.
     volume = sum(dot(area_vector(points, surface), points[surface[0]]) for surface in consistent)

@@ -42,7 +42,7 @@ def beyond_near(polyhedra: Sequence[Polyhedron], observer: Observer) -> Clipped:
             remaining.append(_clipped(polyhedron, depths, observer))
             cut.append(polyhedron.name)
     if polyhedra and not remaining:
-        raise SceneError("expected a polyhedron beyond the near plane, but all lie on its near side")
+        raise SceneError("expected a polyhedron beyond the near plane, but all polyhedra lie on its near side")
     return Clipped(tuple(remaining), tuple(cut), tuple(behind))
 
 

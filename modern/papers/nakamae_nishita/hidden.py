@@ -125,7 +125,7 @@ def draw(
     """
     unknown = sorted(set(without) - set(REFINEMENTS))
     if unknown:
-        raise SceneError(f"{quoted(unknown[0])} is not one of {', '.join(REFINEMENTS)}")
+        raise SceneError(f"{quoted(unknown[0])} is not one of the names {', '.join(REFINEMENTS)}")
     started = time.perf_counter()
     # Time I: create the polyhedra (section 2).
     created = made() if callable(made) else made

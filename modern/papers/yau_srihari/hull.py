@@ -122,7 +122,7 @@ def octree_hull(volume: Volume | NDArray[np.bool_], printed: Printed | None = No
         raise NoVoxels(f"{volume.source}: there are no voxels")
     side = trees.side_for(max(array.shape))
     if side**3 > MAX_CELLS:
-        raise VolumeError(f"{volume.source}: the octree's cube has side {side}, more than {MAX_CELLS} voxels")
+        raise VolumeError(f"{volume.source}: the octree's cube of side {side} has more than {MAX_CELLS} voxels")
     solid = trees.octree(array)
     # Step 1: the floor alpha and the ceiling beta.
     lowest, highest = floor(solid), ceiling(solid)

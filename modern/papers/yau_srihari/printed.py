@@ -50,7 +50,7 @@ class Printed:
         """Return the object that applies the named statements as printed. Raise ValueError for an unknown name."""
         unknown = [name for name in names if name not in NAMES]
         if unknown:
-            raise ValueError(f"{quoted(unknown[0])} is not one of {', '.join(NAMES)}")
+            raise ValueError(f"{quoted(unknown[0])} is not one of the names {', '.join(NAMES)}")
         return cls(**dict.fromkeys(names, True))
 
     def names(self) -> tuple[str, ...]:

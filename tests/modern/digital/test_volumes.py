@@ -205,7 +205,7 @@ HEADER = nrrd(STEPS.astype("u1"), "uchar")
         (HEADER.replace(b"encoding: raw", b"encoding: gzip"), "the data cannot be decompressed"),
         (HEADER.replace(b"# a", b"a"), "line 2, column 1: expected a field or a comment"),
         (HEADER.replace(b"# a", b"type: a"), "line 3, column 1: duplicate field type"),
-        (HEADER.replace(b"key:=", b"byte skip: -1\nkey:="), "line 7: byte skip: only 0 is supported"),
+        (HEADER.replace(b"key:=", b"byte skip: -1\nkey:="), "line 7: byte skip: only the value 0 is supported"),
         (HEADER.replace(b"key:=", b"data file: LIST\nkey:="), "line 7: data in several files are not supported"),
         (HEADER.replace(b"type: uchar", b"type: int").replace(b"raw", b"ascii"), "encoding: expected raw or gzip"),
         (HEADER[:-3], "expected 24 bytes of data, found 21"),

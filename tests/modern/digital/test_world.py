@@ -160,7 +160,7 @@ def test_invalid_positions_are_reported(place: dict[str, Any], message: str) -> 
 
 def test_volumes_need_a_step_for_every_axis_and_pictures_in_space_have_no_area() -> None:
     world = world_of(2, directions=[(1, 0, 1), (0, 1, 0)])
-    with pytest.raises(VolumeError, match="2 axes in a space of 3"):
+    with pytest.raises(VolumeError, match="2 axes in a space of 3 dimensions"):
         voxel_volume(world)
     with pytest.raises(VolumeError, match="expected 3 steps of the position, found 2"):
         Volume(np.ones((1, 1, 1), np.bool_), (0, 0, 0), world=world_of(2, (1, 1)))

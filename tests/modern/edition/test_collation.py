@@ -159,7 +159,10 @@ def test_edit_distance(a: str, b: str, expected: int) -> None:
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"edition": "0"}, "x.json: was made for other cards of the listings; collate the transcription again"),
+        (
+            {"edition": "0"},
+            "x.json: the collation was made for other cards of the listings; collate the transcription again",
+        ),
         ({"format": "other"}, "x.json: is not a collation"),
         ({"cards": [["program1", 1, [], "cc", {}]]}, "x.json: is not a collation"),
     ],

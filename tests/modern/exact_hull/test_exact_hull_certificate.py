@@ -127,7 +127,7 @@ CHANGES = {
     "a face is missing, so two planes do not determine a corner": (
         CUBE,
         with_facet(TOP, None),
-        "its planes do not determine it",
+        "the planes through it meet in more than one point",
     ),
     "no facets": (GRID, lambda hull: replace(hull, facets=()), "there are no facets"),
     "a face in the order seen from inside": (GRID, with_facet(TOP, TOP, 0, 3, 2, 1), "does not turn left"),
@@ -168,7 +168,7 @@ CHANGES = {
     "a scale that is not the least": (
         OCTAHEDRON,
         lambda hull: replace(hull, scale=2, scaled=tuple(tuple(2 * n for n in p) for p in hull.scaled)),
-        "the scale is not the least",
+        "the scale is not the least number",
     ),
     "scaled coordinates as numpy integers": (
         OCTAHEDRON,
@@ -201,7 +201,7 @@ CHANGES = {
     "a polygon that starts with another vertex": (
         SKEW_SQUARE,
         lambda hull: replace(hull, polygon=(*hull.polygon[1:], hull.polygon[0])),
-        "not an order of the vertices",
+        "does not name every vertex once",
     ),
     "a face that starts with another vertex": (GRID, with_facet(TOP, TOP, 1, 2, 3, 0), "smallest vertex is not first"),
     "a face without corners": (
@@ -252,7 +252,7 @@ def test_two_surfaces_and_polygons_outside_their_plane_are_refused() -> None:
         checks._check_polyhedron(both)
     # The point is inside the plane of every edge, but not in that of the polygon, which the rank shows first.
     hull = exact_hull([*SQUARE, (1, 1, 0)])
-    refused([*SQUARE, (1, 1, 1)], replace(hull, scaled=(*hull.scaled[:4], (1, 1, 1))), "but the points have rank 3")
+    refused([*SQUARE, (1, 1, 1)], replace(hull, scaled=(*hull.scaled[:4], (1, 1, 1))), "but that of the points is 3")
     with pytest.raises(CertificateError, match="point 4 is not in the polygon's plane"):
         checks._check_polygon(replace(hull, scaled=(*hull.scaled[:4], (1, 1, 1))))
 

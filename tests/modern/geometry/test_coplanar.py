@@ -150,8 +150,8 @@ CROOKED = [(8, 1, -9), (-7, 7, 0), (3, -6, 7), (-6, 4, 5), (-9, 9, -3), (-3, 2, 
     ("points", "within", "message"),
     [
         (dodecahedron(), 5, "all points lie within 5 of the plane of the largest face"),
-        (dodecahedron(), 2, "within 2 the 36 faces would become 2; a solid has at least four"),
-        (BARE, 6, "within 6 the 8 faces would become 3; a solid has at least four"),
+        (dodecahedron(), 2, "within 2 the 36 faces would become 2 faces; a solid has at least four faces"),
+        (BARE, 6, "within 6 the 8 faces would become 3 faces; a solid has at least four faces"),
         (
             CROOKED,
             "3/2",

@@ -157,7 +157,7 @@ def test_flat_input_has_a_summary(folder: Path, capsys, text: str, summary: str)
         (["two.off"], "two.off: surface 1: expected at least 3 points, found 2"),
         (["twice.off"], "twice.off: surface 1: it contains a point twice"),
         (["points.csv", "--inside-corners", "any"], "points.csv: --inside-corners needs the surfaces"),
-        (["crown.off", "--printed", "step4"], "--printed: 'step4' is not one of star, step3, step5,"),
+        (["crown.off", "--printed", "step4"], "--printed: 'step4' is not one of the names star, step3, step5,"),
         (["crown.off", "--literal", "--printed", "star"], "not allowed with argument --literal"),
         (["open.off", "--inside-corners", "two"], "open.off: surface 1: line 1-2 lies on 1 surface,"),
         (["fig4.off", "-o", "nosuch/hull.off"], "nosuch/hull.off: no such file or directory"),

@@ -40,7 +40,7 @@ def test_rules_are_selected_and_searches_without_a_face_stop() -> None:
     assert intersect([(1, 2), (3, 4)], 0, 1) is None
     assert printed() == Method()
     assert printed(*PRINTED) == Method(as_printed, frozenset(PRINTED[1:]))
-    with pytest.raises(ValueError, match="'step2' is not one of star, step3"):
+    with pytest.raises(ValueError, match="'step2' is not one of the names star, step3"):
         printed("step2")
     # All angles are right angles, so the condition alone would find no loop.
     assert entries(CUBE) == entries(CUBE, "step3")

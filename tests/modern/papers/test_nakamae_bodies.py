@@ -179,7 +179,7 @@ def test_rounded_faces_are_rejected_with_their_deviation_and_merged_within_a_dis
         (p.start, p.end, p.visible) for p in unmerged.pieces
     }
     assert "joined" in {edge.kind for edge in drawing.solids[0].edges}
-    with pytest.raises(CoplanarError, match=r"^d: within 2 the 36 faces would become 2; "):
+    with pytest.raises(CoplanarError, match=r"^d: within 2 the 36 faces would become 2 faces; "):
         bodies(parse_mesh(text, "d.off"), Reading(within=Fraction(2)), "d")
 
 

@@ -76,7 +76,7 @@ def test_the_tables_show_relations_and_passages(folder: Path, capsys) -> None:
         (("cube.off", "--perspective", "--eye", "0.5,0.5,0.5"), "point other than the point looked at"),
         (("cube.off", "--perspective", "--eye", "0.5,0.5,0.6"), "not entirely in front of the observation point"),
         (("cube.off", "--towards", "1,2,3"), "--towards needs --perspective"),
-        (("cube.off", "--without", "all"), "'all' is not one of enclosed, touching, ends, ghosts"),
+        (("cube.off", "--without", "all"), "'all' is not one of the names enclosed, touching, ends, ghosts"),
         (("cube.off", "--width", "5"), "a picture cannot be 5 pixels wide"),
         (("flat.csv",), "flat.csv: a segment is not a polyhedron; expected points not on one line"),
     ],

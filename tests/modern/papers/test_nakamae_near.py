@@ -102,7 +102,7 @@ def test_a_polyhedron_that_the_plane_only_touches_is_not_clipped() -> None:
     solid = box((0, 0, 0), (2, 2, 2))
     assert clip(solid, 10) == Clipped((solid,))
     with pytest.raises(
-        SceneError, match=r"^expected a polyhedron beyond the near plane, but all lie on its near side$"
+        SceneError, match=r"^expected a polyhedron beyond the near plane, but all polyhedra lie on its near side$"
     ):
         clip(solid, 12)
     clipped = beyond_near([solid, box((5, 5, 5), (6, 6, 6), "far")], looking(12))
@@ -170,7 +170,12 @@ def test_the_command_reports_clipped_and_omitted_parts(tmp_path: Path, monkeypat
         ("near = 8", "near = 0", (), "s.toml: view: near: expected a distance greater than 0"),
         ('projection = "perspective"\n', "", (), "towards: a parallel projection has only a direction, in the field"),
         ('projection = "perspective"\neye', "eye", ("--towards", "1,2,3"), "towards: a parallel projection"),
-        ("near = 8", "near = 99", (), "expected a polyhedron beyond the near plane, but all lie on its near side"),
+        (
+            "near = 8",
+            "near = 99",
+            (),
+            "expected a polyhedron beyond the near plane, but all polyhedra lie on its near side",
+        ),
         ("near = 8", "", ("--near", "0"), "--near: expected a distance greater than 0, found '0'"),
         ("near = 8", "", ("--near", "a"), "--near: 'a' is not a decimal number"),
         ("near = 8", "", ("--near", "-1"), "--near: expected a distance greater than 0, found '-1'"),

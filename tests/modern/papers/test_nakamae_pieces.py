@@ -44,7 +44,7 @@ def test_each_refinement_is_needed(refinement: str, polyhedra: list[Polyhedron])
 
 
 def test_unknown_refinements_flat_columns_and_eyes_inside_are_rejected() -> None:
-    with pytest.raises(SceneError, match=r"^'end' is not one of enclosed, touching, ends, ghosts$"):
+    with pytest.raises(SceneError, match=r"^'end' is not one of the names enclosed, touching, ends, ghosts$"):
         draw(BEHIND, parallel((1, 1, 1)), ("end",))
     with pytest.raises(SceneError, match="not entirely in front of the observation point"):
         draw([box((0, 0, 0), (2, 2, 2))], perspective(vector(1, 1, 1), vector(9, 9, 9)))

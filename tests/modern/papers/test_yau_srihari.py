@@ -160,7 +160,7 @@ def test_components_are_counted_and_large_cubes_rejected() -> None:
     hull = octree_hull(array)
     assert hull.components == 3
     assert (hull.solid_voxels, hull.voxels) == (3, judged(array)[1].sum())
-    with pytest.raises(VolumeError, match="the octree's cube has side 2048, more than 2147483648 voxels"):
+    with pytest.raises(VolumeError, match="the octree's cube of side 2048 has more than 2147483648 voxels"):
         octree_hull(np.ones((1025, 1, 1), dtype=np.bool_))
 
 
@@ -192,5 +192,5 @@ def test_printed_selects_statements_by_name() -> None:
     assert Printed.only("angle", "marks").names() == ("angle", "marks")
     assert LITERAL.names() == NAMES
     assert Printed().names() == ()
-    with pytest.raises(ValueError, match="not one of angle"):
+    with pytest.raises(ValueError, match="not one of the names angle"):
         Printed.only("corner")

@@ -159,8 +159,8 @@ def test_the_filled_hull_is_written_as_an_array(stair: str, command: list[str], 
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["stair.csv", "--printed", "angel"], "--printed: 'angel' is not one of angle, start"),
-        (["stair.csv", "--printed", ""], "--printed: '' is not one of angle, start"),
+        (["stair.csv", "--printed", "angel"], "--printed: 'angel' is not one of the names angle, start"),
+        (["stair.csv", "--printed", ""], "--printed: '' is not one of the names angle, start"),
         (["stair.csv", "--literal", "--printed", "angle"], "not allowed with argument"),
         (["stair.csv", "-o", "hull.svg"], "hull.svg: octree-hull expects a name that ends with .nrrd or .npy or .off"),
         (["stair.csv", "-o", "no/hull.npy"], "no/hull.npy: no such file or directory"),
