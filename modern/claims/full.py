@@ -29,7 +29,7 @@ class FullSearch:
     """The result of one check at its full size.
 
     ``statements`` are the ids that the check decides, separated by spaces, and ``sources`` is a digest of the code
-    that it was computed with.
+    that computed the result.
     """
 
     check: str

@@ -151,7 +151,7 @@ def triangles_of_360_corners() -> Check:
 
 @claim("kovalevsky-schulz.39", "kovalevsky-schulz.40", "kovalevsky-schulz.41", "kovalevsky-schulz.42")
 def cell_list() -> Check:
-    """Check that the sublists of Tables 1 to 3 agree: every edge is on two vertices and two faces."""
+    """Check that the vertices, edges and faces of Tables 1 to 3 agree: every edge is on two vertices and two faces."""
     printed = corrected_print("kovalevsky-schulz")
     ends = {e: (s, t) for e, s, t, _, _ in map(numbers_in, printed["table2"])}
     sides = Counter(face for row in printed["table2"] for face in numbers_in(row)[3:])

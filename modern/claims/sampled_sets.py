@@ -119,7 +119,7 @@ def reduced_plane(plane: Plane) -> Plane:
 
 
 def _outward(points: tuple[Point, ...], defining: tuple[int, ...], start: tuple[int, ...], flat: bool) -> Plane:
-    """Return the integer equation of the defining points that is negative at the mean of the first points.
+    """Return the integer equation through the defining points that is negative at the mean of the points ``start``.
 
     If the set is flat, the equation is that of an edge: the plane through the edge perpendicular to the plane of the
     set.

@@ -62,7 +62,7 @@ def _complex(solid: Iterable[Point]) -> set[Cell]:
 
 
 def _placed(solid: Voxels, of: Of) -> set[Cell]:
-    """Return the voxels of a solid, or the elements that the program labels for the corners of its voxels."""
+    """Return the array elements that the program labels for a solid's voxels or their corners, as ``of`` selects."""
     volume = listed(solid)
     return {*map(tuple, Volume(places(volume, of), volume.origin).coordinates().tolist())}
 
@@ -179,7 +179,7 @@ def subcomplex(cells: Complex, subset: set[int]) -> Complex:
 
 
 def connected(cells: Complex) -> set[tuple[int, int]]:
-    """Return the pairs of connected cells: incident, or connected to the same cell (Definition CN)."""
+    """Return the pairs of connected cells: two incident cells, or two connected to a third cell (Definition CN)."""
     numbers = range(len(cells[0]))
     pairs = {(e, f) for e, f in product(numbers, repeat=2) if e == f or {(e, f), (f, e)} & cells[1]}
     while new := {(e, f) for (e, c), (f, c_) in product(pairs, repeat=2) if c == c_} - pairs:

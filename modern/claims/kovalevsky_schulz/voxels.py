@@ -85,7 +85,7 @@ def points_of(solid: Voxels, of: Of) -> Voxels:
 
 
 def _triangles(corners: Iterable[Iterable[int]], coplanar: Coplanar = INVISIBLE) -> int:
-    """Return the number of triangles of the hull of corners that are added in this order."""
+    """Return the number of triangles of the hull of corners that are added in the given order."""
     return len(convex_polyhedron(corners, coplanar).faces)  # type: ignore[union-attr]
 
 

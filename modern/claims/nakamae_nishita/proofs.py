@@ -1,4 +1,4 @@
-"""Proof of the front faces of Nakamae and Nishita; :mod:`modern.claims.algebra` checks the steps."""
+"""Proof of the test for front faces of Nakamae and Nishita; :mod:`modern.claims.algebra` checks the steps."""
 
 from collections.abc import Callable
 

@@ -68,12 +68,12 @@ def pairs(count: int = CASES) -> Iterator[tuple[tuple[Place, ...], tuple[Place, 
 
 
 def inside(p: Place, v: tuple[Place, ...]) -> bool:
-    """Return True if the triangles of a point with the sides of a convex polygon have the area of the polygon."""
+    """Return True if a point is in a convex polygon: its triangles with all sides add up to the area of the polygon."""
     return sum(abs(area(p, a, b)) for a, b in sides(v)) == abs(sum(area(v[0], a, b) for a, b in sides(v)))
 
 
 def overlap(v: tuple[Place, ...], w: tuple[Place, ...]) -> bool:
-    """Return True if the hulls of two sets have common inner points: 0 is an inner point of the hull of differences."""
+    """Return True if the hulls of two sets have common inner points: 0 is inside the hull of all differences."""
     differences = sorted({(q[0] - p[0], q[1] - p[1], 0) for p in v for q in w})
     ring = [differences[k][:2] for k in exact_hull(differences).polygon]
     return all(area((0, 0), a, b) > 0 for a, b in sides(ring))
@@ -179,7 +179,7 @@ def formula_5() -> Check:
 
 @cache
 def numbers_of_meetings(v: tuple[Place, ...], w: tuple[Place, ...]) -> list[tuple[int, int]]:
-    """Return, for each pair of segments of two contours, formula (3) and the value that their position requires."""
+    """Return, for each pair of sides of two contours, the value of formula (3) and that required by their position."""
     tables, meetings = tables_by_2(v, w), []
     for (i, (a, b)), (j, (c, d)) in product(enumerate(sides(v)), enumerate(sides(w))):
         # Section 3.2: -4 for a crossing, -2 for a vertex on a segment, -1 for a common vertex, else 0.

@@ -36,7 +36,7 @@ def procedure_against_judge(dimensions: Sequence[int], cases: int = CASES) -> Ch
 
 
 def parts(points: Sequence[Point], hull: Hull | ExactHull) -> tuple[object, ...]:
-    """Return the kinds of the points, and for each plane or line the points on it, also for the plane of a flat set."""
+    """Return the class of each point and the points on each plane or line, with the plane that contains a flat set."""
     planes = [face.lowest for face in hull.faces] if isinstance(hull, Hull) else [f.plane for f in hull.facets]
     # The exact hull represents a line of a flat set by the plane through the line perpendicular to the set.
     flat: list[Plane] = [tuple(map(int, hull.plane))] if hull.plane else []  # type: ignore[list-item]

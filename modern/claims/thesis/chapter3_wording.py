@@ -60,9 +60,9 @@ def line_duplicates_as_printed() -> Check:
 def _duplicates_removed_as_worded(
     points: Sequence[Point], used: Sequence[int], equations: Sequence[Pair]
 ) -> list[Pair]:
-    """Apply pages 26 to 28 to each point that satisfies an equation but is not one of its two defining points.
+    """Return the equations of lines that remain if pages 26 to 28 are applied as worded.
 
-    The middle one of the three points is eliminated, if it still remains, and so is the equation.
+    If a third point satisfies an equation, this equation is eliminated, and so is the middle one of the three points.
     """
     remaining, vertices = list(equations), list(used)
     for i in used:

@@ -129,7 +129,7 @@ def _point(theorem: Theorem, name: str) -> Point:
 def lost_candidates(theorem: Theorem) -> list[Vector]:
     """Return the possible values of the lost point P3 of theorem 4.1.
 
-    They are points of the given plane with integer coordinates, the largest y, and extreme neither in x nor in z.
+    They are the points of the theorem's plane that have integer coordinates and the largest y, but no extreme x or z.
     """
     (plane,) = theorem.planes
     known = [point.at for point in theorem.points]

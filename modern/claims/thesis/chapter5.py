@@ -95,7 +95,7 @@ def _corrected_program2(name: str) -> Program:
 
 
 def _on_equations(hull: CardHull) -> list[tuple[tuple[int, ...], int]]:
-    """Return for each equation the numbers of the vertices that satisfy it."""
+    """Return, for each equation, the numbers of the vertices that satisfy it, and the number of the equation."""
     return [
         (tuple(k for k, vertex in enumerate(hull.vertices, 1) if not sum(map(mul, e, (*vertex, 1)))), number)
         for number, e in enumerate(hull.equations, 1)

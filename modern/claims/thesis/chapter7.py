@@ -246,7 +246,7 @@ def _coefficients(points: tuple[Point, ...], name: str) -> list[Fraction]:
 
 
 def _misses(points: tuple[Point, ...], name: str = "truncating") -> list[int]:
-    """Return the indices of the points that do not satisfy the plane through the first three points."""
+    """Return the indices of the points that, in an arithmetic, are not on the plane of the first three points."""
     arithmetic, rows = take(points, name)
     all_points = [tuple(rows[axis][k] for axis in range(3)) for k in range(len(points))]
     equation = plane(*all_points[:3])

@@ -94,7 +94,7 @@ def _envelopes_agree(voxels: tuple[Point, ...]) -> bool:
 @claim("yau-srihari.86", name="truncation")
 @claim("yau-srihari.87", name="marks")
 def algorithm_as_printed(name: str) -> Check:
-    """Check that a statement of the algorithm, as printed, gives a wrong hull of its counterexample."""
+    """Check that a statement of the algorithm, as printed, gives a wrong hull for its counterexample."""
     array = array_of(counterexample_points(f"yau_{name}.csv"))
     wrong, right = octree_hull(array, Printed.only(name)).filled, octree_hull(array).filled
     missing, more = int((right & ~wrong).sum()), int((wrong & ~right).sum())
