@@ -49,7 +49,9 @@ def why_plain(options: Options) -> str:
         return f"the compiled engine does not support --uncut: {INSTEAD}"
     profile = options.numbers.profile
     if profile.digits > MAX_DIGITS:
-        return f"{profile.name} has {profile.digits} digits; the compiled engine supports {MAX_DIGITS}: {INSTEAD}"
+        return (
+            f"{profile.name} has {profile.digits} digits; the compiled engine supports at most {MAX_DIGITS}: {INSTEAD}"
+        )
     try:
         run_decks()
     except NotInstalled as error:

@@ -41,7 +41,7 @@ def check_convex(
     axis = 2 if any(normal[:2]) else 1
     upper = [side[axis] > 0 for side in sides]
     entries = sum(after and not before for before, after in zip(upper, upper[1:] + upper[:1], strict=True))
-    require(entries == 1, "{}: the polygon goes around {} times", name, entries)
+    require(entries == 1, "{}: the sides of the polygon turn around {} times, expected once", name, entries)
 
 
 @dataclass(frozen=True, slots=True)

@@ -257,7 +257,8 @@ def _flaws(closed: _Closed, hull: Hull, polyhedron: Polyhedron, reading: Reading
         off = max(abs(dot(normal, minus(points[place], points[face[0]]))) for place in face)
         if off:
             far = root_text(Fraction(off * off, dot(normal, normal) * closed.scale**2))
-            yield f"face {order + 1} is not plane, by {far}; {reading.as_within} merges faces within a distance"
+            advice = f"{reading.as_within} merges faces within the distance E"
+            yield f"face {order + 1} is not plane: a vertex is {far} off its plane; {advice}"
         a, b, c = lowest(normal)
         d = Fraction(-dot((a, b, c), points[face[0]]), closed.scale)
         if (a * d.denominator, b * d.denominator, c * d.denominator, d.numerator) not in planes:

@@ -36,7 +36,9 @@ def test_ten_digits_run_in_the_interpreter() -> None:
     options = Options(numbers=numbers("truncating:10"))
     (result,) = run_batch(program(*LINES), [DECK], options, notes.append)
     assert result.punched == ("  42",)
-    assert notes == ["truncating:10 has 10 digits; the compiled engine supports 9: using the interpreter instead"]
+    assert notes == [
+        "truncating:10 has 10 digits; the compiled engine supports at most 9: using the interpreter instead"
+    ]
 
 
 def test_without_numba_the_interpreter_runs(monkeypatch) -> None:

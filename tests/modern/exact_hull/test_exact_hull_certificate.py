@@ -178,7 +178,7 @@ CHANGES = {
     "a pentagram, which turns left everywhere": (
         PRISM,
         with_facet((0, 0, 1, -3), (0, 0, 1, -3), 0, 2, 4, 1, 3),
-        "goes around 2 times",
+        "the sides of the polygon turn around 2 times",
     ),
     "an edge with an inclined plane": (SQUARE, with_facet((0, -1, 0, 0), (0, -1, 1, 0)), "at right angles"),
     "a line through one corner as an edge": (SQUARE, with_extra((-1, -1, 0, 0), 0), "not the polygon's edges"),

@@ -167,7 +167,10 @@ def test_rounded_faces_are_rejected_with_their_deviation_and_merged_within_a_dis
     triangles = parse_mesh(export_text(hull, "off").encode(), "d.off")
     assert len(bodies(triangles, Reading(), "d").polyhedra[0].faces) == 36
     text = export_text(twelve_faces(), "off").encode()
-    with pytest.raises(SceneError, match=r"^d: face \d+ is not plane, by \d\.\d+e-16; coplanar_within = \"E\" merges"):
+    with pytest.raises(
+        SceneError,
+        match=r"^d: face \d+ is not plane: a vertex is \d\.\d+e-16 off its plane; coplanar_within = \"E\" merges",
+    ):
         bodies(parse_mesh(text, "d.off"), Reading(), "d")
     result = bodies(parse_mesh(text, "d.off"), Reading(within=Fraction(1, 10**9)), "d")
     assert result.notes[0].startswith("d: 36 faces are joined into 12 within 1e-9; a vertex lies at most ")
@@ -211,7 +214,11 @@ def test_the_outline_is_complete_when_a_merged_face_is_edge_on() -> None:
             "f: two faces run in the same direction along the edge of vertices 1 and 2",
         ),
         ([*CUBE[:7], (0, 0, 0)], CUBE_FACES, "f: vertices 1 and 8 are the same point"),
-        ([*CUBE[:7], (0, 1, "9/8")], CUBE_FACES, "f: face 2 is not plane, by 0.0623; coplanar_within"),
+        (
+            [*CUBE[:7], (0, 1, "9/8")],
+            CUBE_FACES,
+            "f: face 2 is not plane: a vertex is 0.0623 off its plane; coplanar_within",
+        ),
     ],
 )
 def test_invalid_surfaces_are_rejected(points: list[Point], faces: list[tuple[int, ...]], message: str) -> None:

@@ -79,7 +79,7 @@ def test_paths_of_parts_are_relative_to_the_folder_of_the_scene(folder: Path, ca
         ('"d.off"', '""', "part 1 (dodecahedron): file: a file without a name cannot be read"),
         ('"d.off"', "3", "part 1: file: expected a string"),
         ('"d.off"', '"three.toml"', "part 1 (dodecahedron): file: three.toml: expected faces, found only points"),
-        ("coplanar_within = 1e-9\n", "", "part 1 (dodecahedron): file: d.off: face 1 is not plane, by "),
+        ("coplanar_within = 1e-9\n", "", "part 1 (dodecahedron): file: d.off: face 1 is not plane: a vertex"),
         ("1e-9", "-1", "must be >= 0, not -1"),
         ("1e-9", "7", "part 1 (dodecahedron): file: d.off: all points lie within 7 of the plane"),
         ("hull = true\n", "", "part 3 (ell): file: ell.obj: not convex: between faces 5 and 6"),
