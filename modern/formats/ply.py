@@ -103,7 +103,7 @@ def surface(data: bytes, source: str, with_faces: bool = True) -> FileMesh:
                 points.append(_point(source, line, [values[column or 0] for column in columns], kind))
                 point_lines.append(line)
             elif element.name == "face" and with_faces:
-                faces.append(_face(source, line, values[indices or 0], by_name["vertex"].count))
+                faces.append(_face(source, line, values[indices or 0], by_name["vertex"].count, kind))
         remaining.discard(element.name)
         if not remaining:
             break
@@ -117,12 +117,13 @@ def _point(source: str, line: int, values: list[Any], kind: str) -> Point:
     return x, y, z
 
 
-def _face(source: str, line: int, values: list[Any], vertices: int) -> tuple[int, ...]:
+def _face(source: str, line: int, values: list[Any], vertices: int, kind: str) -> tuple[int, ...]:
     face = tuple(count(source, line, value) if isinstance(value, tuple) else int(value) for value in values)
     wrong = [index for index in face if not 0 <= index < vertices]
     if wrong or not face:
         message = f"there is no vertex {wrong[0]}; they are numbered from 0 to {vertices - 1}" if wrong else "no vertex"
-        raise FileError(f"{source}: face in line {line}: {message}")
+        face_name = f"face {line}" if kind in _ORDERS else f"face in line {line}"
+        raise FileError(f"{source}: {face_name}: {message}")
     return face
 
 

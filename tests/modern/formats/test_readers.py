@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from emulator.errors import EmulatorError
 from modern.exact_hull import exact_hull
 from modern.formats.export import export_text
+from modern.formats.ply import surface
 from modern.formats.points import Input, parse_bytes
 from modern.port import convex_hull
 from tests.support.commands import call
@@ -87,6 +88,9 @@ def test_binary_ply_is_read_exactly(order: str, word: str, code: str) -> None:
     assert found.places == ("vertex 1", "vertex 2")
     with pytest.raises(EmulatorError, match="the file ends after 1 of 2 vertices"):
         read(header.encode() + rows[:-1])
+    face = struct.pack(f"{order}Biii", 3, 0, 1, 2)
+    with pytest.raises(EmulatorError, match=r"face 1: there is no vertex 2; they are numbered from 0 to 1$"):
+        surface(header.encode() + rows + face, "a.ply")
 
 
 def test_binary_stl_is_read_exactly_and_each_point_once() -> None:
