@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from itertools import combinations
@@ -18,6 +19,7 @@ from modern.claims.evidence import Check, claim, exhibited, searched
 from modern.claims.hulls import convex_hull, exact_hull
 from modern.claims.sampled_sets import BOTH, CASES, flat_and_spatial_sets
 from modern.claims.thesis.chapter3_equations import procedure_against_judge
+from modern.claims.thesis.chapter3_stages import stage_property
 from modern.claims.thesis.chapter3_steps import fourth_point_by_largest
 from modern.claims.thesis.chapter3_wording import line_duplicates_as_printed
 from modern.claims.thesis.chapter7 import (
@@ -155,14 +157,24 @@ def plane_table_size() -> Check:
     return check.unless(most > size, f"the intermediate hulls of table.deck, which need {most} entries")
 
 
-@claim("thesis.14", "thesis.283")
+@claim("thesis.14")
 def line_table_size() -> Check:
     size = next(entry.size for entry in programs.program("program2").storage.arrays() if entry.name == "MM")
-    stages = convex_hull([(k, k * k, 0) for k in range(MOST_POINTS)], history=True).history
-    # The steps to 50 and to 51 vertices add two lines before they remove one.
+    # The last point is added first, between two points with the same x, and is not a vertex in the end.
+    points = [*((k * (k + 1), k, 0) for k in range(-25, 25)), (600, 0, 0)]
+    stages, vertices = convex_hull(points, history=True).history, len(exact_hull(points).vertices)
+    # The steps that add the 50th and the 51st point add two lines before they remove one.
     fifty, fifty_one = (len(stage.equations) + 2 for stage in stages[-3:-1])
-    check = exhibited(fifty == size, f"50 vertices need {fifty} lines at once")
-    return check.unless(fifty_one > size, f"51 vertices, which need {fifty_one} lines at once")
+    check = exhibited(fifty == size, f"50 added points need {fifty} lines at once")
+    case = f"a hull of {vertices} vertices to which 51 points were added, which need {fifty_one} lines at once"
+    return check.unless(fifty_one > size and vertices < MOST_POINTS == len(points), case)
+
+
+@claim("thesis.283", full=300)
+def lines_of_added_points(cases: int = CASES) -> Check:
+    table, counts = line_table_size(), stage_property("counts", cases)
+    check = replace(counts, holds=table.holds and counts.holds, message=f"{table.message}; {counts.message}")
+    return check.unless(table.evidence.violation, table.evidence.violation)
 
 
 @claim("thesis.172", examples=(1,))
