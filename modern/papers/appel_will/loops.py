@@ -55,8 +55,9 @@ class Intersection:
 
     ``start`` and ``match`` are the other ends of L1 and L2. In type 1 both lines begin at the common point. In type 2
     L1 begins and L2 ends at this point, in type 3 L1 ends and L2 begins at it, and in type 4 both end at it. The
-    drawings of Figs. 20 and 21 are lost. Type 1 and its signs are certain from the text of Figs. 21 and 22. The signs
-    of the other types follow from the sense of the loop, and the numbers of these types are this project's choice.
+    drawings of Figs. 20 and 21 are lost. The text of Figs. 21 and 22 determines type 1 and the signs of its loop
+    entries. For the other types, the signs follow from the sense of the loop, and the project has chosen which of them
+    is called 2, 3 and 4.
     """
 
     first: int

@@ -148,9 +148,10 @@ def _by_method(figures: Mapping[str, Any]) -> Iterator[tuple[str, int, int, int,
 
 @dataclass
 class _Rows:
-    """The counts of the report.
+    """The numbers that the report shows, counted over runs.
 
-    groups: the counts by cell.  places: the counts by the statement of the first wrong decision.
+    ``groups`` has the counts of runs and alarms for each cell of the study, and ``places`` those for each statement at
+    which a run took its first wrong decision.
     """
 
     groups: dict[int, _Group] = field(default_factory=dict)

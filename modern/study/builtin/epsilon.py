@@ -111,9 +111,10 @@ class _Rows:
         return [k for k in tried if not self.counts.failed(cell, name(k))]
 
     def begins(self, cell: int, name: Name, tried: tuple[int, ...]) -> int | None:
-        """Return the least exponent k such that e = 10**k and every greater e swallow a vertex of some set.
+        """Return the least exponent k from which on e is too large.
 
-        Return None if the greatest e swallows no vertex.  A vertex that is missed only at a smaller e is missed because
+        With e = 10**k, and with every greater e tried, the hull of some set lacks a vertex because of e.  Return None
+        if no vertex is missing with the greatest e.  A vertex that is missing only with a smaller e is missing because
         of the arithmetic and not because of e.
         """
         least = None
