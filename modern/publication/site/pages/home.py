@@ -77,9 +77,7 @@ def _examples() -> str:
         listed, rebuilt = (_agreement(example, state) for state in ("listing", "examples"))
         verdict = f": as listed {listed}; as reconstructed {rebuilt}"
         examples.append(element("li", link(f"example{example}", "", f"Example {example}") + escape(verdict)))
-    head = text(
-        "p", "The printed results of the six examples, compared with program 1 as listed and as reconstructed:"
-    )
+    head = text("p", "The printed results of the six examples, compared with program 1 as listed and as reconstructed:")
     return head + element("ul", "".join(examples), cls="examples")
 
 
