@@ -209,9 +209,7 @@ def sum_of_page_46() -> Check:
     sums = [total(printed), total(substituted), _c_0((xa, ya), (xb, yb), k) - total(substituted)]
     proof = Proof("the printed sum is 0", "All terms cancel.", _all_zero("the sum is 0", sums))
     differ = sorted(str(t.terms) for t in printed) != sorted(str(t.terms) for t in substituted)
-    return proof.check().misprinted(
-        differ, "three terms have x_b y_a, and four terms have lambda and 1 - lambda exchanged"
-    )
+    return proof.check().misprinted(differ, "three terms have x_b y_a; in four, lambda and 1 - lambda are exchanged")
 
 
 def _v(x: Point, i: Point) -> Polynomial:

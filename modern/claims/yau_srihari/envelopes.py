@@ -1,8 +1,4 @@
-"""Checks of Yau and Srihari: theorems 1 and 2, the algorithm as printed, and the two envelopes of a solid.
-
-The envelopes are the lower and the upper surface of the hull, above the lowest and below the highest voxel of every
-column, which the paper calls floor and ceiling.
-"""
+"""Checks of Yau and Srihari: theorems 1 and 2, the printed algorithm, and envelopes (lower and upper hull surfaces)."""
 
 from dataclasses import replace
 from fractions import Fraction
