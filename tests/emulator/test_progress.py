@@ -86,7 +86,7 @@ def test_each_arithmetic_that_cannot_be_compiled_is_reported_once() -> None:
         "truncating",
         "the compiled engine does not support exact arithmetic",
     ]
-    assert "supports 9" in lines[0]
+    assert "supports at most 9" in lines[0]
 
 
 def test_a_study_reports_that_the_interpreter_runs(tmp_path: Path, monkeypatch, capsys) -> None:

@@ -4,6 +4,7 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from itertools import combinations, product
+from math import gcd
 from random import Random
 
 import numpy as np
@@ -53,7 +54,7 @@ SOLIDS: Generator[tuple[Point, ...]] = Generator(
     "connected solids of up to 41 voxels in a cube of 6, not flat", 1983, _draw_solid, lambda s: _is_spatial_solid(s)
 )
 # Normals of supporting planes that have the surface on or above them.
-NORMALS = [normal for normal in product(range(-3, 4), range(-3, 4), range(4)) if any(normal)]
+NORMALS = [normal for normal in product(range(-3, 4), range(-3, 4), range(4)) if gcd(*normal) == 1]
 
 
 def _is_spatial_solid(voxels: tuple[Point, ...]) -> bool:
@@ -186,13 +187,13 @@ def floor_and_ceiling() -> Check:
 @claim("yau-srihari.55", "yau-srihari.56", full=500)
 def supporting_planes(cases: int = 5) -> Check:
     def touch(voxels: tuple[Point, ...]) -> bool:
-        hull = hull_of(voxels)
-        floor, vertices = {(*at, z) for at, z in hull.floor.items()}, {v for f in hull.lower.faces for v in f.vertices}
-        return vertices <= floor and all(
-            min(dot(n, p) for p in floor) == min(dot(n, v) for v in vertices) for n in NORMALS
-        )
+        points, floor = _placed(voxels), {(*at, z) for at, z in hull_of(voxels).floor.items()}
+        # The extreme points of the convex envelope are the vertices of the faces that are seen from below.
+        extreme = {points[k] for facet in exact_hull(points).facets if facet.plane[2] < 0 for k in facet.polygon}
+        lowest = [[min(dot(n, point) for point in some) for n in NORMALS] for some in (floor, extreme)]
+        return extreme <= floor and lowest[0] == lowest[1]
 
-    message = f"{len(NORMALS)} planes that support a floor from below or a side contain an extreme point in the floor"
+    message = f"all extreme points are in the floor; {len(NORMALS)} planes below or beside each floor contain one"
     return search(SOLIDS, touch, cases, message)
 
 

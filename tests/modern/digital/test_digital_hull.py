@@ -146,7 +146,7 @@ def test_compiled_code_without_numba_is_an_error(monkeypatch) -> None:
         (np.ones((2, 2, 2, 2)), "two or three axes"),
         (np.array([["a", "b"]]), "numbers or truth values"),
         (np.array([[0.0, np.nan]]), "not a number"),
-        (np.broadcast_to(np.True_, (1 << 30, 1 << 30)), "no exact hull"),
+        (np.broadcast_to(np.True_, (1 << 30, 1 << 30)), "exact hull of more than 72057594037927936 voxels"),
     ],
 )
 def test_invalid_arrays_are_refused(array: np.ndarray, message: str) -> None:
