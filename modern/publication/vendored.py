@@ -96,9 +96,9 @@ def download(folder: Path) -> str:
 
 
 def _of_pin(pin: str) -> tuple[str, Version]:
-    """Return the normalised name and the version of a pin ``NAME==VERSION``."""
-    name, _, version = pin.partition("==")
-    return canonicalize_name(name), Version(version)
+    """Return the normalised name and the version of a pin, ``NAME==VERSION`` or ``NAME[EXTRA]==VERSION``."""
+    requirement = Requirement(pin)
+    return canonicalize_name(requirement.name), Version(str(requirement.specifier).removeprefix("=="))
 
 
 def files(wheels: Path = WHEELS, pyodide: Path = PYODIDE) -> dict[str, bytes]:

@@ -256,3 +256,30 @@ def test_an_example_prints_on_at_most_twelve_sheets(chromium: Browser, site: Pat
     with opened(chromium, site, f"example{example}.html") as (tab, _):
         sheets = len(re.findall(rb"/Type ?/Page\b", tab.pdf(format="A4", prefer_css_page_size=True)))
     assert 4 <= sheets <= 12
+
+
+@pytest.mark.parametrize(
+    ("address", "target"), [("statements/thesis.html", "thesis.16"), ("program3.html", "name-NETC")]
+)
+def test_the_target_of_an_address_is_below_the_bar(chromium: Browser, site: Path, address: str, target: str) -> None:
+    with opened(chromium, site, f"{address}#{target}") as (tab, _):
+        top, bar = tab.evaluate(
+            "id => [document.getElementById(id).getBoundingClientRect().top,"
+            " document.querySelector('.controls').getBoundingClientRect().bottom]",
+            target,
+        )
+        assert 0 < bar <= top < 800
+
+
+def test_the_cards_of_a_listing_have_the_width_of_the_page(chromium: Browser, site: Path) -> None:
+    with opened(chromium, site, "program3.html") as (tab, _):
+        card, page = (
+            tab.evaluate("name => document.querySelector(name).clientWidth", name) for name in (".card", "article")
+        )
+        assert card > 0.95 * page > 800
+
+
+def test_the_search_has_no_descriptions_of_commands_as_names(site: Path) -> None:
+    index = (site / "searchindex.js").read_text(encoding="utf-8")
+    assert "&#x27;" not in index
+    assert '"Punch points as a data deck":' not in index
