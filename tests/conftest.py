@@ -7,9 +7,12 @@ import gc
 import locale
 import os
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
+
+from tests.support import editions
 
 _CALM = (HealthCheck.too_slow, HealthCheck.function_scoped_fixture)
 
@@ -31,6 +34,24 @@ def pytest_collection_finish() -> None:
     """Exclude all objects that exist after the collection from the garbage collector."""
     gc.collect()
     gc.freeze()
+
+
+@pytest.fixture(scope="session")
+def shared(tmp_path_factory, worker_id: str) -> Path:
+    """Return a folder that all workers of the test session share."""
+    base = tmp_path_factory.getbasetemp()
+    return base if worker_id == "master" else base.parent
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _site(request: pytest.FixtureRequest, shared: Path, worker_id: str) -> Iterator[None]:
+    """Start to build the site in the background, if tests of several workers will need it."""
+    if worker_id != "gw0" or not any("site" in getattr(item, "fixturenames", ()) for item in request.session.items):
+        yield
+        return
+    process = editions.begin(shared)
+    yield
+    process.wait()
 
 
 @pytest.fixture(autouse=True)

@@ -20,6 +20,7 @@ from urllib.parse import unquote, urlsplit
 import lxml.html
 from lxml.etree import _Element
 
+from modern.publication.console import install_machine
 from tests.support.paths import ROOT
 
 CHROMIUM = which("chromium") or which("chromium-browser") or ""
@@ -58,23 +59,45 @@ def packed(room: Path) -> Path:
 
 
 @contextmanager
-def first_caller(folder: Path) -> Iterator[bool]:
-    """Yield True to the first process that enters the context, and False to the others after the first has left it."""
-    with (folder / "site.lock").open("a+") as lock:
+def first_caller(folder: Path, name: str) -> Iterator[bool]:
+    """Yield True to the first process that enters with this name, and False to those that enter after it has left."""
+    with (folder / f"{name}.lock").open("a+") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
-        yield not (folder / "site.done").exists()
-        (folder / "site.done").touch()
+        yield not (folder / f"{name}.done").exists()
+        (folder / f"{name}.done").touch()
 
 
 def built(folder: Path) -> Path:
-    """Return the site in ``folder``; the first worker of the test session that calls this function builds it."""
+    """Return the site in ``folder``; the first process of the test session that calls this function builds it."""
     if "HULL1620_SITE" in os.environ:
         return Path(os.environ["HULL1620_SITE"])
     site = folder / "site"
-    with first_caller(folder) as is_first:
+    with first_caller(folder, "site") as is_first:
         if is_first:
             build(site)
     return site
+
+
+def equipped(folder: Path) -> Path:
+    """Return a copy of the site with the emulator; the first process that calls this makes it in ``folder``."""
+    site, copy = built(folder), folder / "equipped"
+    with first_caller(folder, "equipped") as is_first:
+        if is_first:
+            copy.mkdir()
+            for entry in site.iterdir():
+                if entry.name != "console":
+                    (copy / entry.name).symlink_to(entry)
+            assert 0 < install_machine(copy / "console", packed(folder)) < 7_000_000
+    return copy
+
+
+def begin(folder: Path) -> subprocess.Popen[bytes]:
+    """Start to build the site and its emulator in the background, so that no test has to wait for the whole build.
+
+    A failure is not reported: the first test that needs the site builds it again, and reports what is wrong.
+    """
+    command = [sys.executable, "-c", f"from tests.support.editions import *; equipped(Path({str(folder)!r}))"]
+    return subprocess.Popen(command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
 @dataclass(frozen=True)

@@ -11,18 +11,10 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from modern.publication.console import install_machine
 from tests.support import editions
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
-
-
-@pytest.fixture(scope="session")
-def shared(tmp_path_factory, worker_id: str) -> Path:
-    """Return a folder that all workers of the test session share."""
-    base = tmp_path_factory.getbasetemp()
-    return base if worker_id == "master" else base.parent
 
 
 @pytest.fixture(scope="session")
@@ -40,16 +32,9 @@ class Quiet(SimpleHTTPRequestHandler):
 
 
 @pytest.fixture(scope="session")
-def folder(site: Path, tmp_path_factory) -> Path:
-    """Return a copy of the site with the emulator."""
-    room = tmp_path_factory.mktemp("console")
-    folder = room / "site"
-    folder.mkdir()
-    for entry in site.iterdir():
-        if entry.name != "console":
-            (folder / entry.name).symlink_to(entry)
-    assert 0 < install_machine(folder / "console", editions.packed(room)) < 7_000_000
-    return folder
+def folder(site: Path, shared: Path) -> Path:
+    """Return a copy of the site with the emulator, which is made once."""
+    return editions.equipped(shared)
 
 
 @pytest.fixture(scope="session")
