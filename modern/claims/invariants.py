@@ -201,9 +201,9 @@ def scene_of_solids(scene: str) -> Check:
 
 @claim("appel-will.20")
 def figure_4() -> Check:
-    """Check that each line of the map of Fig. 4 is on two surfaces, which form a sphere."""
+    """Check that each line of the map of Fig. 4 is on two surfaces, which form a closed surface like a sphere."""
     rows = [line.split()[1].split(",") for line in corrected_print("appel-will")["fig4-topological-map"]]
-    return satisfied("Fig. 4", [("sphere", is_sphere(rows))])
+    return satisfied("Fig. 4", [("each line is on two surfaces, and V - E + F = 2", is_sphere(rows))])
 
 
 def _columns(rows: Sequence[str]) -> list[list[int]]:

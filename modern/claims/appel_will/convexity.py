@@ -183,12 +183,12 @@ def polyhedron_property(number: str, cases: int = 2 * CASES) -> Check:
 
 
 def _cones(points: Sequence[Point], judge: ExactHull) -> list[bool]:
-    """Return, for each vertex, whether its planes have all points on one side, and whether it alone is on them all."""
+    """Return, for each vertex, whether its planes have all points on one side, and whether they meet in one point."""
     checks = []
     for k in judge.vertices:
         planes = [f.plane for f in judge.facets if k in f.polygon]
         checks.append(all(plane_value(p, q) <= 0 for p in planes for q in points))
-        checks.append(sum(not any(plane_value(p, q) for p in planes) for q in points) == 1)
+        checks.append(any(dot(a[:3], cross(b[:3], c[:3])) for a, b, c in combinations(planes, 3)))
     return checks
 
 
@@ -279,13 +279,13 @@ def star_as_captioned() -> Check:
 @claim("appel-will.105", step="step7")
 @claim("appel-will.108", step="step10")
 def step_as_printed(step: str) -> Check:
-    name = "fig23.csv" if step == "step7" else "fig14.csv"
+    name, reading = "fig23.csv" if step == "step7" else "fig14.csv", "step 2" if step == "step10" else "step 3"
     hull, corrected = (appel_will(counterexample_points(name), method=method) for method in (printed(step), CORRECTED))
     entries, corrected_entries = ([loop.entries for loop in h.table.loops] for h in (hull, corrected))
     wrong = hull.fault or entries != corrected_entries
-    order = "the loops come in an order that differs from the printed one" if wrong else "the same loops"
-    reading = "step 2" if step == "step10" else "step 3"
-    return slip(not wrong, corrected.table.closed, reading, hull.fault or order)
+    pairs = enumerate(zip(entries, corrected_entries, strict=False), 1)
+    begins = (f"loop {n} begins with line {abs(a[0])}, but {abs(b[0])} is printed" for n, (a, b) in pairs if a != b)
+    return slip(not wrong, corrected.table.closed, reading, hull.fault or next(begins, "the same loops"))
 
 
 @claim("appel-will.96", "appel-will.124", "kovalevsky-schulz.43", "kovalevsky-schulz.158", full=400)

@@ -211,7 +211,7 @@ def vertex_without_supporting_surface() -> Check:
     supporting = sum(max(row) <= 0 or min(row) >= 0 for row in values)
     count = len(solid.surfaces)
     passed = supporting == 0 and exact_hull(solid.points).vertices == (0, 1, 2, 3) and len(planes) == count == 12
-    message = f"the hull of an object with {count} surfaces is a tetrahedron; {supporting} of their planes support it"
+    message = f"the hull of an object with {count} surfaces, none of which is on a supporting plane, is a tetrahedron"
     return exhibited(passed, message)
 
 

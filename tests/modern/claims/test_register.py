@@ -89,7 +89,7 @@ def test_worst_verdict_of_check_and_results_counts(first: Verdict, second: Verdi
         ("thesis", "table", ["Table 1", "theorem 4.8"]),
         ("thesis", "example", [f"Example {k}" for k in range(1, 7)]),
         ("appel-will", "figure", [f"Fig. {k}" for k in range(1, 24)]),
-        ("appel-will", "property", ["inside of all planes", "cone", "dihedral", "polygons", "curve", "surface"]),
+        ("appel-will", "property", ["material side of all planes", "cone", "dihedral", "polygons", "curve", "surface"]),
         ("appel-will", "step", [f"Step {k}" for k in range(1, 11)]),
         ("kovalevsky-schulz", "lemma", ["LZ", "CH", "BE"]),
         ("kovalevsky-schulz", "theorem", ["PL"]),
