@@ -62,8 +62,8 @@ def end_of_the_procedure(dimension: int, cases: int = 2) -> Check:
         removed[0] += len(remaining)
         removed[1] += len(used) - len(hull.vertices)
         removed[2] += len(hull.history[-1].equations) - len(hull.faces)
-    message = "points that remain: {}, all on the boundary; points that are removed, because they are no vertices: {}; "
-    message = f"{message}duplicate equations that are removed: {{}}".format(*removed)
+    message = "points neither added nor eliminated: {}, all on the boundary; added points that are no vertices, "
+    message = f"{message}removed: {{}}; duplicate equations, removed: {{}}".format(*removed)
     return searched(LATTICE_SETS[dimension], cases, [*outcomes, *removed], message)
 
 

@@ -29,8 +29,8 @@ from modern.geometry.vectors import cross, dot, minus
 
 
 @claim("thesis.2", "thesis.29", kind="nested", full=300)
-@claim("thesis.204", "thesis.69", "thesis.79", "thesis.101", "thesis.265", kind="last_hull", full=300)
-@claim("thesis.205", kind="struck_inside", full=300)
+@claim("thesis.204", "thesis.69", "thesis.79", "thesis.101", "thesis.224", "thesis.265", kind="last_hull", full=300)
+@claim("thesis.205", "thesis.224", kind="struck_inside", full=300)
 @claim("thesis.30", "thesis.60", kind="contained_points", full=300)
 @claim("thesis.204", "thesis.31", "thesis.78", "thesis.100", kind="finite", full=300)
 @claim("thesis.216", "thesis.72", "thesis.220", "thesis.225", kind="counts", full=300)

@@ -104,7 +104,7 @@ def classification_by_signs(cases: int = CASES) -> Check:
     return searched(BOTH, 2 * cases, [*checks, some_boundary], message)
 
 
-@claim("thesis.61", "thesis.63", "thesis.64", "thesis.88", full=300)
+@claim("thesis.61", "thesis.63", "thesis.64", "thesis.88", "thesis.189", full=300)
 def mean_of_first_hull(cases: int = CASES) -> Check:
     right, negative = [], []
     for sampled in flat_and_spatial_sets(cases):
@@ -126,7 +126,7 @@ def outside_convention() -> Check:
     printed, corrected = inside, [value > 0 for value in (x, -x)]
     # Each of the two points, on opposite sides of the line, must be either inside or outside.
     as_printed, as_corrected = (all(map(ne, inside, outside)) for outside in (printed, corrected))
-    message = f"at the point x is {x}: by the printed definition it is both inside and outside the line x = 0"
+    message = f"as printed, the point x = {x} is both an inside and an outside point with respect to the line x = 0"
     return slip(as_printed, as_corrected, "a positive value", message)
 
 

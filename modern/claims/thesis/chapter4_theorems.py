@@ -33,7 +33,7 @@ def eight_theorems() -> Check:
     is_complete = examples | {*proofs_by_name} == {f"4.{k}" for k in range(1, 9)}
     by_example = [check for theorem in load_theorems() for check in worked_example_checks(theorem).values()]
     is_valid = all(check.holds for check in (*by_example, *(proof().check() for proof in proofs_by_name.values())))
-    message = f"the examples of the thesis prove theorems {', '.join(sorted(examples))}; the project proves the others"
+    message = f"the examples of theorems {', '.join(sorted(examples))} are right; the project proves the other theorems"
     return exhibited(is_complete and is_valid, message)
 
 
@@ -149,7 +149,8 @@ def no_negative_x() -> Check:
     (x,) = variables("x")
     signs = {"x_1": positive(2 * X1), "third": not_negative(X1 * X1 - (x - X1) * (x - X1))}
     step = Step("x is not negative", signs, not_negative(x), (term("third"), term("", x)), ("x_1",))
-    return proved("2 x_1 x is the sum of x^2 and x_1^2 - (x - x_1)^2", [step.is_valid()], "x is not negative")
+    message = "no x is negative at a point no farther from the line x = x_1 than the origin, if x_1 is positive"
+    return proved("2 x_1 x is the sum of x^2 and x_1^2 - (x - x_1)^2", [step.is_valid()], message)
 
 
 @claim("thesis.142", "thesis.143")

@@ -66,9 +66,9 @@ def one_or_two_points() -> Proof:
     )
     return Proof(
         "all points of a set of one or two distinct points are vertices",
-        "A point is a vertex if it is no combination, with two positive weights, of two points of the set. A set of "
-        "one point has no two points. A combination of p and q is p plus the weight of q times q - p, so it is p only "
-        "if this weight is 0.",
+        "A point is a vertex if it is no combination, with two positive weights, of two points of the hull. The hull "
+        "of one point has no two points. A combination of two points of the segment p q is p plus a weight times q - "
+        "p. The weight is positive because only one of them can be p. So the combination is not p, nor, likewise, q.",
         (step,),
     )
 
@@ -225,7 +225,7 @@ def display_of_page_14() -> Check:
     at = dict(zip(names, counterexample_points("v_as_our_text.csv"), strict=True))
     values = {f"{name}_{axis}": c for name in names for axis, c in zip("xyz", at[name], strict=True)}
     is_wrong = _v(X, X).at(values) == 0 != _v(P, X).at(values)
-    return theorem_4_3().check().misprinted(is_wrong, "y_i, z_i and x_i in all factors")
+    return theorem_4_3().check().misprinted(is_wrong, "the index i in the first factor of each product")
 
 
 @claim("thesis.287")

@@ -328,7 +328,7 @@ def theorem_4_5() -> Proof:
 @claim("thesis.119", "thesis.121", "thesis.122", "thesis.124", "thesis.235", proof=theorem_4_3)
 @claim("thesis.125", "thesis.197", "thesis.236", "thesis.237", proof=theorem_4_4)
 @claim("thesis.74", "thesis.131", "thesis.132", "thesis.133", "thesis.238", "thesis.240", proof=theorem_4_5)
-@claim("thesis.257", "thesis.258", proof=theorem_4_5)
+@claim("thesis.241", "thesis.257", "thesis.258", proof=theorem_4_5)
 @claim("thesis.71", "thesis.135", "thesis.136", proof=theorem_4_6)
 @claim("thesis.137", "thesis.145", "thesis.259", "thesis.278", proof=theorem_4_7)
 def proof_of_theorem(proof: Callable[[], Proof]) -> Check:
