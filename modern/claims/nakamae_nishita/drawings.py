@@ -150,7 +150,7 @@ def edges_that_can_be_visible(cases: int = CASES) -> Check:
                 is_hidden = exact_hull([*enlarged, beside]).inside == (len(enlarged),)
                 outcomes.append(is_hidden != (edge.kind in (INNER, CONTOUR)))
                 hidden += is_hidden
-    message = f"hulls hide {hidden} of {len(outcomes)} of their own edges, none of them an inner or a contour edge"
+    message = f"hulls hide {hidden} of their own {len(outcomes)} edges: all except the inner and the contour edges"
     return searched(SETS[3], cases, [*outcomes, hidden], message)
 
 

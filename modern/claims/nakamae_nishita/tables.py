@@ -104,7 +104,7 @@ def convex_contour(cases: int = CASES) -> Check:
         checks.append(len(ring) == len(after) and {*turns} <= {-1, 0} and (0 in values or 0 not in turns))
         checks.append(all(side(p, q, image) <= 0 for p, q in sides(contour) for image in images))
         straight += turns.count(0)
-    message = f"the contours of {len(checks) // 2} hulls are convex and clockwise; one hull has a face seen edge-on"
+    message = f"the contours of {len(checks) // 2} hulls are convex and clockwise, also if a face is seen edge-on"
     return searched(SETS[3], 1 + cases, [*checks, straight], message)
 
 
@@ -227,7 +227,8 @@ def table_properties(number: str, cases: int = CASES) -> Check:
             property_checks, touches = _property(property_number, *(of_lp if number == "LP" else of_pl))
             checks += property_checks
             touching |= touches
-    check = searched(POLYGONS, 2 * cases, checks, f"true for {len(checks)} cases")
+    units = {"3": "segments without -1", "4": "vertices", "LP": "cases of the four properties"}
+    check = searched(POLYGONS, 2 * cases, checks, f"true for {len(checks)} {units.get(number, 'pairs of contours')}")
     return check.unless(touching, "a side without -1 that touches the other polygon, where d is -2 or -1")
 
 

@@ -3,7 +3,7 @@
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
-from itertools import combinations, permutations, product
+from itertools import combinations, groupby, pairwise, permutations, product
 from operator import eq
 from random import Random
 
@@ -35,7 +35,7 @@ from modern.drawing.visible import CONTOUR, INNER, line_through, sign, value
 from modern.geometry.mesh import sides
 from modern.geometry.vectors import dot, minus, plus
 from modern.papers.nakamae_nishita.contours import values
-from modern.papers.nakamae_nishita.crossings import CLEAR, ENCLOSED, Passage, as_printed, clipped
+from modern.papers.nakamae_nishita.crossings import CLEAR, ENCLOSED, as_printed, clipped
 from modern.papers.nakamae_nishita.hidden import Drawing, draw
 from modern.papers.nakamae_nishita.nearness import BY_CROSSING
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron, checked
@@ -136,9 +136,10 @@ def indices(cases: int = 3) -> Check:
                     at_a, at_b = (value(line, (*end, 1)) for end in (a, b))
                     met.append((Fraction(at_a, at_a - at_b), sign(determinant)))
             by_six = tuple((place, len(met) * index) for place, index in sorted(met))
-            passage = _passage(v, a, b)
-            checks.append(passage.marks == by_six)
-            ways.add(tuple(index for _, index in passage.marks))
+            of_contour = values(lines_of(v), [(*a, 0, 1), (*b, 0, 1)])
+            marks = clipped(of_contour, 0, 1).marks if of_contour else ()
+            checks.append(marks == by_six)
+            ways.add(tuple(index for _, index in marks))
     message = f"of {len(checks)} segments, some enter with the index 1, leave with -1, or do both with 2 and -2"
     # An intersection with the index -1 is alone on its segment.
     check = searched(_CONTOURS, cases, [*checks, ways == {(), (1,), (-1,), (2, -2)}], message)
@@ -150,11 +151,6 @@ def indices(cases: int = 3) -> Check:
 
 
 _CONTOURS = replace(POLYGONS, name=f"{POLYGONS.name}, with the segments between 16 points of a grid")
-
-
-def _passage(v: tuple[Place, ...], a: Place, b: Place) -> Passage:
-    of_contour = values(lines_of(v), [(*a, 0, 1), (*b, 0, 1)])
-    return CLEAR if of_contour is None else clipped(of_contour, 0, 1)
 
 
 @claim("nakamae-nishita.35")
@@ -189,15 +185,18 @@ def nearer_polyhedron(cases: int = 3) -> Check:
 
 @claim("nakamae-nishita.42", full=100)
 def three_conditions(cases: int = 3) -> Check:
-    index_patterns, touching = [], 0
+    courses, touching = [], 0
     for v in (SQUARE, *POLYGONS.cases(cases)):
         for a, b in combinations(_ENDS, 2):
-            marks = _passage(v, a, b).marks
-            touching += not marks and any(between(a, b, p) and p not in (a, b) for p in v)
-            index_patterns += [tuple(index for _, index in marks)] if marks else []
-    possible = {(1,), (-1,), (2, -2)}
-    outcomes = [pattern in possible for pattern in index_patterns] if {*index_patterns} == possible else [False]
-    check = searched(_CONTOURS, cases, outcomes, f"{len(index_patterns)} segments enter, leave, or do both")
+            ends = [(value(line, (*a, 1)), value(line, (*b, 1))) for line in lines_of(v)]
+            # Between its intersections with the lines of the contour, a segment is wholly inside or outside.
+            places = sorted({Fraction(0), Fraction(1), *(Fraction(p, p - q) for p, q in ends if p * q < 0)})
+            parts = [all(2 * p + (s + t) * (q - p) > 0 for p, q in ends) for s, t in pairwise(places)]
+            course = tuple(is_inside for is_inside, _ in groupby(parts))
+            touching += course == (False,) and any(between(a, b, p) and p not in (a, b) for p in v)
+            courses += [course] if len(course) > 1 else []
+    outcomes = [{*courses} == {(False, True), (True, False), (False, True, False)}]
+    check = searched(_CONTOURS, cases, outcomes, f"{len(courses)} segments enter a contour, leave it, or do both")
     return check.unless(touching, f"segments that only touch the contour at a corner or along a side ({touching})")
 
 
@@ -247,7 +246,7 @@ def segments_within(cases: int = CASES) -> Check:
                 values_at_w = values(lines_of(w), [(*a, 0, 1), (*b, 0, 1)])
                 checks.append(values_at_w is not None and clipped(values_at_w, 0, 1) != CLEAR)
                 partly_inside += not (inside(a, w) and inside(b, w))
-    message = f"in {len(checks)} crossings of diagonals a part of the side is inside"
+    message = f"in {len(checks)} crossings of a side of V with a diagonal of V', a part of the side is inside"
     check = searched(POLYGONS, 2 * cases, checks, message)
     return check.unless(partly_inside, f"the whole segment, which is not inside in {partly_inside} crossings")
 
@@ -292,7 +291,8 @@ def counts_of_table_1d() -> Check:
     # 25 prisms, 23 on quadrangles and 2 on triangles, and five plates with four corners and two faces.
     bases = [4] * 23 + [3] * 2
     plates = (len(bases) + 5, 2 * sum(bases) + 5 * 4, sum(bases) + 2 * len(bases) + 5 * 2)
-    check = exhibited(plates == (parts, vertices, faces), "25 prisms and five plates have the printed counts")
+    message = "25 prisms and five plates, each with four corners and two faces, have the printed counts"
+    check = exhibited(plates == (parts, vertices, faces), message)
     # A solid with F faces has at most 2 F - 4 vertices.
     most = 2 * faces - 4 * parts
     return check.unless(most < vertices, f"solids only, which have at most {most} vertices with {faces} faces")
