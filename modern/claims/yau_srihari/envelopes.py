@@ -153,7 +153,7 @@ def solid_from_deficiency(cases: int = 3) -> Check:
         solid = array_of(voxels)
         return np.array_equal(hull_of(voxels).filled & ~convex_deficiency(solid), solid)
 
-    return search(SOLIDS, is_described, cases, "each solid is its digital hull without the convex deficiency")
+    return search(SOLIDS, is_described, cases, "each hull contains its solid, which is the hull without the deficiency")
 
 
 @claim("yau-srihari.35")
@@ -166,12 +166,9 @@ def smallest_convex_solid() -> Check:
     path_fails &= not is_digitally_convex(array_of(path))
     voxels = (1, 0, 1), (1, 1, 1)
     completions = [p for p in voxels if p not in path and is_digitally_convex(array_of([*path, p]))]
-    return exhibited(
-        passed, f"the hull of {hull.solid_voxels} connected voxels has {hull.voxels} digital points and is convex"
-    ).unless(
-        path_fails and len(completions) > 1,
-        f"a path of six voxels that {len(completions)} different voxels make convex",
-    )
+    message = f"the hull of {hull.solid_voxels} connected voxels has {hull.voxels} digital points and is convex"
+    case = f"a path of six voxels, which each of {len(completions)} other voxels makes convex"
+    return exhibited(passed, message).unless(path_fails and len(completions) > 1, case)
 
 
 @claim("yau-srihari.50")

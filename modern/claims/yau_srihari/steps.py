@@ -115,8 +115,8 @@ def angle_counts(cases: int = 3) -> Check:
     (whole, preprocessed, by_search, with_bounds), (whole_of_12, _, _, with_bounds_of_12), *_ = counts
     outcomes = [search <= reduced <= all_points for all_points, reduced, search, _ in counts]
     outcomes += [by_search < preprocessed < whole, with_bounds_of_12 < whole_of_12]
-    message = f"a ball has {whole} angles of points, {preprocessed} after preprocessing, {by_search} by search"
-    message += f"; with all bounds, a ball of diameter 12 has {with_bounds_of_12} instead of {whole_of_12}"
+    message = f"a ball of diameter 8 has {whole} angles of points, {preprocessed} after preprocessing, {by_search} by "
+    message += f"search; with all bounds, a ball of diameter 12 has {with_bounds_of_12} instead of {whole_of_12}"
     check = searched(SOLIDS, cases, outcomes, message)
     return check.unless(with_bounds > whole, f"the bounds in a ball of diameter 8: with them {with_bounds} angles")
 
