@@ -143,7 +143,7 @@ def cells_with_common_coordinates() -> Check:
     for cell in product(range(8), repeat=3):
         dimensions.setdefault(farthest_ground_cell(cell), []).append(dimension(cell))
     outcomes = [sorted(of_voxel) == [0, 1, 1, 1, 2, 2, 2, 3] for of_voxel in dimensions.values()]
-    message = "one 0-cell and seven other cells, as many as a byte has bits, have the coordinates of each voxel"
+    message = "eight cells, as many as a byte has bits, have the coordinates of each voxel; one of them is a 0-cell"
     return exhausted("voxels of a block of 64", outcomes, message)
 
 

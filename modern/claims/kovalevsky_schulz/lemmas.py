@@ -34,12 +34,12 @@ def smaller_polyhedron(vertices: str) -> Check:
     larger, smaller = exact_hull(corners), exact_hull([*corners[:-1], lower])
     within = [max(plane_value(f.plane, p) for f in larger.facets) for p in (*corners[:-1], lower)]
     wrong = smaller.vertices == (0, 1, 2, 3) and max(within) == min(within) == 0 and lower not in corners
-    message = f"{lower} is a vertex of the smaller tetrahedron and on the boundary of the larger"
+    message = "all vertices of the smaller tetrahedron are on the boundary of the larger one"
     if vertices == "moved":
-        return refuted(wrong, f"{message}, but not one of its vertices")
+        return refuted(wrong, f"{message}, and {lower} is not a vertex of the larger one")
     four = [p for p in product((0, 1), repeat=3) if sum(p) % 2 == 0]
     wrong = wrong and exact_hull(four).dimension == 3
-    return refuted(wrong, f"{message}, like all of four alternate corners of a cube")
+    return refuted(wrong, f"{message}; four alternate corners of a cube form such a smaller tetrahedron, too")
 
 
 @claim("kovalevsky-schulz.126", "kovalevsky-schulz.75", full=1_000)
@@ -107,9 +107,7 @@ def closed_boundary(cases: int = CASES) -> Check:
 
 @claim("kovalevsky-schulz.73", full=400)
 def section_angles(cases: int = CASES) -> Check:
-    right: list[bool] = []
-    sharp: list[bool] = []
-    elsewhere: list[bool] = []
+    right, sharp, elsewhere = list[bool](), list[bool](), list[bool]()
     for (points, judge), new in product(hulls(cases), OUTSIDE):
         for edge in horizon(judge, new):
             hidden, visible = _planes_at(edge, judge, new)
@@ -126,9 +124,9 @@ def section_angles(cases: int = CASES) -> Check:
             for line, normal in product((upright, way), (visible[:3], hidden[:3])):
                 is_right = dot(normal, outward) > 0 and _cosine(normal, line) + _cosine(normal, outward) == 1
                 (elsewhere if line is way else at_foot).append(is_right)
-    check = searched(SETS[3], cases, right, f"{len(right)} angles are right with Q at the foot of the perpendicular")
-    case = f"Q at an end of the edge, with {elsewhere.count(False)} wrong angles, and sharp edges, {sharp.count(False)}"
-    return check.unless(False in elsewhere and False in sharp, case)
+    message = f"{len(right)} angles are those of the proof, with Q at the foot of the perpendicular"
+    case = f"{elsewhere.count(False)} angles with Q at an end of the edge, and by {sharp.count(False)} at sharp edges"
+    return searched(SETS[3], cases, right, message).unless(False in elsewhere and False in sharp, case)
 
 
 def _cosine(u: Sequence[int | Fraction], v: Sequence[int | Fraction]) -> Fraction:

@@ -49,7 +49,7 @@ def memory_requirements() -> Check:
         own = triangulation_size(2 * int(row.corners) - 4)
         fewer.append(row.integers < row.triangle_integers)
         if row.integers > own:
-            more[row.diameter] = f"{row.integers} integers against {own} of its triangles at diameter {row.diameter}"
+            more[row.diameter] = f"{row.integers} integers against {own} of hull triangles at diameter {row.diameter}"
     car, triangles = (int(tables[name][0].split()[-1]) for name in ("table4-hull", "table4-triangulation"))
     fewer.append(car < triangles)
     # Formula (6) is approximate. The hulls of the half-balls give the exact numbers.

@@ -180,6 +180,14 @@ def corners_of_eight_voxels() -> Check:
         ((1, 1, 1) in local(voxels, VERTICES, 6)) == (len(voxels) == 1) == beyond.isdisjoint(_corners(voxels))
         for voxels in subsets
     ]
-    domain = "subsets of the eight voxels at a corner that contain one of them"
-    message = "a corner is halfway between two neighbours if and only if several voxels meet there, and if and only if "
-    return exhausted(domain, outcomes, f"{message}one of them continues an edge of another one")
+    message = "a corner is between two neighbours if and only if several voxels meet there, which have edges in line"
+    return exhausted("sets of the eight voxels at a corner that contain the first of them", outcomes, message)
+
+
+@claim("kovalevsky-schulz.79")
+def marching_cubes() -> Check:
+    # The vertices of Marching Cubes around two voxels with a gap between them. All coordinates are doubled.
+    surface = [plus(voxel, d) for voxel in ((0, 0, 0), (4, 0, 0)) for d in DIRECTIONS if dot(d, d) == 1]
+    planes = [facet.plane for facet in exact_hull(surface).facets]
+    inner = [p for p in surface if max(plane_value(plane, p) for plane in planes) < 0]
+    return exhibited(inner, f"{len(inner)} of {len(surface)} vertices around two separate voxels are inside their hull")

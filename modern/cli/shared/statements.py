@@ -26,7 +26,7 @@ Paint = Callable[[str, str], str]
 # A function that wraps and indents a text.
 Indented = Callable[[str], Iterable[str]]
 
-_REASON = {CONDITION: "condition", HOLDS: "note"}
+_REASON = {CONDITION: "condition", HOLDS: "note", USED: "note"}
 _PAINT_KINDS = {HOLDS: EXACT, CONDITION: ORDER, FAILS: DIFFERENT}
 _PLURAL = {
     HOLDS: "hold",
