@@ -205,9 +205,8 @@ def planes_i_and_m() -> Check:
         pairs += [edge for *_, edge in _shared(before, visible)]
         with_j += [len({*before.defining[i]} & {*before.defining[j]}) == 2 for i, *_ in _shared(before, visible)]
     right = bool(pairs) and all(len(edge) == 2 for edge in pairs) and planes_at_common_edge().holds
-    message = (
-        f"{len(pairs)} pairs of planes i and m have two common points; with plane j of H_j for m, {sum(with_j)} have"
-    )
+    message = f"{len(pairs)} pairs of planes i and m have two common points; of as many pairs of plane i and plane j "
+    message += f"of H_j, {sum(with_j)} have"
     return slip(all(with_j), right, "i and m", message)
 
 

@@ -254,4 +254,4 @@ def displays_of_page_42() -> Check:
     (_, ux, uy, uz), (_, wy, _) = (0, *minus(Q, P)), minus(Q, X)
     as_text = (wy * uz - uz * uy) * (wy * uz - uz * uy) + 2 * (ux * uy - uy * uz) * (ux * uy - uy * uz)
     is_wrong = (as_text - _v(X, X)).terms
-    return theorem_4_3().check().misprinted(is_wrong, "three determinants or brackets with letters and indices of V")
+    return theorem_4_3().check().misprinted(is_wrong, "three brackets with the letters and indices of V")
