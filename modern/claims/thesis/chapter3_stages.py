@@ -236,11 +236,11 @@ def _added_tetrahedra(sampled: SampledSet) -> Iterator[bool]:
         corners = [[apex, *(sampled.points[k] for k in before.defining[at])] for at in visible]
         for point in lattice:
             yield _contains(after, point) == (
-                _contains(before, point) or any(_in_tetrahedron(point, four) for four in corners)
+                _contains(before, point) or any(in_tetrahedron(point, four) for four in corners)
             )
 
 
-def _in_tetrahedron(point: Point, corners: list[Point]) -> bool:
+def in_tetrahedron(point: Point, corners: list[Point]) -> bool:
     """Return True if, for every face, the point is not on the opposite side from the remaining corner."""
     for k, corner in enumerate(corners):
         plane = plane_through(*(c for m, c in enumerate(corners) if m != k))

@@ -28,6 +28,7 @@ from modern.claims.sampled_sets import (
     sampled_sets,
 )
 from modern.claims.thesis.chapter3_equations import plane_as_printed
+from modern.claims.thesis.chapter3_stages import in_tetrahedron
 from modern.geometry.vectors import cross, dot, minus
 
 
@@ -81,14 +82,18 @@ def common_first_steps(cases: int = CASES) -> Check:
 def members_by_signs(cases: int = 1) -> Check:
     checks = []
     for sampled in flat_and_spatial_sets(cases):
-        corners = {sampled.points[k] for k in sampled.judge.vertices}
+        # By Caratheodory's theorem, the combinations of points in space are those of the corners of a tetrahedron.  A
+        # point outside the plane of a flat set makes a tetrahedron of each triangle.
+        x, y, z = sampled.points[0]
+        apex = [(x, y, z + 1)] if sampled.flat else []
+        bodies = [[*some, *apex] for some in combinations(sampled.points, 4 - len(apex))]
+        bodies = [body for body in bodies if plane_value(plane_through(*body[:3]), body[3])]
         for p, q, r in zip(sampled.points, sampled.points[1:], sampled.points[2:], strict=False):
             # The fourth corner of a parallelogram is in the plane of a flat set.
-            x, y, z = fourth = tuple(a + b - c for a, b, c in zip(p, q, r, strict=True))
-            points = [*{*sampled.points, fourth}]
-            is_member = {points[k] for k in exact_hull(points).vertices} == corners
+            x, y, z = (a + b - c for a, b, c in zip(p, q, r, strict=True))
+            is_member = any(in_tetrahedron((x, y, z), body) for body in bodies)
             checks.append(is_member == all(plane_value(f.plane, (x, y, z)) <= 0 for f in sampled.judge.facets))
-    return all_hold(BOTH, 2 * cases, checks, "points are in the hull if and only if no equation is positive there")
+    return all_hold(BOTH, 2 * cases, checks, "points are convex combinations exactly if no equation is positive there")
 
 
 @claim("thesis.213", "thesis.58", full=300)
