@@ -132,7 +132,8 @@ def check_writable(*paths: str | None) -> None:
             except OSError as error:
                 raise FileError(f"{path}: {reason(error)}") from None
     if len(set(real)) < len(real):
-        raise FileError("two outputs have the same file name")
+        same = next(path for path in named if real.count(os.path.realpath(path)) > 1)
+        raise FileError(f"{same}: two outputs have this file name; choose another name for one of them")
 
 
 def check_folder(path: str | None) -> None:

@@ -31,7 +31,7 @@ def require_numba() -> Any:
         raise NotInstalled(f"compiled code needs numba: pip install 'hull1620[fast]' ({error})") from None
     config: Any = numba.config
     if config.DISABLE_JIT:
-        raise NotInstalled("compiled code is turned off by NUMBA_DISABLE_JIT")
+        raise NotInstalled("the environment variable NUMBA_DISABLE_JIT turns compiled code off")
     return numba
 
 
@@ -83,7 +83,7 @@ class Compiled:
         types = tuple(map(numba.typeof, arguments))
         # Loading from the cache takes only a fraction of a second, so it is not reported.
         fresh = types not in self.function.overloads and self.keeps and not self.kept
-        with _shown(f"compiling {self._entry.__name__}, once: some seconds" if fresh else ""):
+        with _shown(f"compiling {self._entry.__name__}; this takes some seconds, but only once" if fresh else ""):
             try:
                 self.function.compile(types)
             except Exception:  # a damaged file in the cache can lead to any exception

@@ -134,7 +134,7 @@ def check_characters(source: str, number: int, line: str, unit: str = "card") ->
 
 def _explain_character(char: str) -> str:
     if char in COMMERCIAL:
-        return f"{char!r} is the commercial graphic of the punch that FORTRAN prints as {COMMERCIAL[char]!r}"
+        return f"write {COMMERCIAL[char]!r} for {char!r}, the character of a commercial card punch with the same holes"
     if char.upper() in CHARACTERS:
-        return f"{char!r} is not in the card code: letters are capitals"
+        return f"{char!r} is not in the card code, which has only capital letters"
     return f"{repr(char) if char.isprintable() else f'character {ord(char):#04x}'} is not in the card code"

@@ -350,7 +350,7 @@ class _Translation:
             if do.label != statement.label:
                 self._error(
                     do.place,
-                    f"the range of this DO, to {do.label}, must be inside the range that ends with {statement.label}",
+                    f"this DO ends with {do.label}, but must end inside the DO that ends with {statement.label}",
                 )
                 continue
             self.emitter.count(do.statement, False, "closing of the DO")
@@ -361,7 +361,7 @@ class _Translation:
         if spec is None:
             raise Refused(statement.place, f"there is no FORMAT number {body.format}", 13)
         if body.items and not spec.has_fields and spec.specs:
-            raise Refused(statement.place, f"FORMAT {body.format} has no field for the numbers of the statement", 13)
+            raise Refused(statement.place, f"FORMAT {body.format} has no field for the numbers in the list", 13)
         self.emitter.allocator.place("statement number", str(body.format))
         self.emitter.emit(op.BEGIN, address=VERBS.index(body.verb), second=self.format_places[body.format])
         for item in body.items:

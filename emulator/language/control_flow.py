@@ -83,8 +83,9 @@ def _jumps_into_loops(program: Program, follow: Sequence[Sequence[int]]) -> Iter
             if entered:
                 innermost = max(entered, key=lambda inside: inside.start)
                 do, name = program.line_at(innermost.start - 1), program.storage.name_of(ranges[innermost])
-                where = f"a jump to {program.line_at(target).label}, into the range of the DO on card {do.place.card}"
-                yield _warning(program.line_at(pc), f"{where}; the DO continues with the old value of {name}")
+                label, card = program.line_at(target).label, do.place.card
+                jump = f"this jump to {label} enters the range of the DO on card {card}"
+                yield _warning(program.line_at(pc), f"{jump}; the DO continues with the old value of {name}")
 
 
 def _reached(follow: Sequence[Sequence[int]], start: int, inside: range) -> set[int]:

@@ -35,13 +35,13 @@ class ForeignStatement:
 
 
 _II, _IV, _II_D = "FORTRAN II", "FORTRAN IV", "FORTRAN II-D"
-_DECK = "a deck is one program here, and the cards from this one to its END are skipped"
+_DECK = "in this dialect a deck is one program, so the cards from this one to its END are skipped"
 _WHOLE = "leave it out: all names belong to one program, and arrays are named by DIMENSION"
 _TYPE = "leave it out: names that begin with I to N are fixed point, all others floating"
 _FORMAT = "give the number of a FORMAT after the verb, as in READ 5, A, B"
-_DEVICE = "here the verb names the device, as in READ 5, A, B or PUNCH 6, A"
-_TAPE = "the machine here reads and punches cards: READ, PUNCH"
-_DISK = "the machine here has no disk"
+_DEVICE = "in this dialect the verb names the device, as in READ 5, A, B or PUNCH 6, A"
+_TAPE = "the emulated 1620 has no tape; read and punch cards with READ and PUNCH"
+_DISK = "the emulated 1620 has no disk"
 _MODES = "(?:REAL|INTEGER|LOGICAL|COMPLEX|DOUBLEPRECISION)"
 
 _STATEMENTS: tuple[tuple[str, ForeignStatement], ...] = (
@@ -77,7 +77,7 @@ _STATEMENTS: tuple[tuple[str, ForeignStatement], ...] = (
     (
         "IF(ACCUMULATOR|QUOTIENT)OVERFLOW|IFDIVIDECHECK",
         ForeignStatement(
-            "a test of overflow", _II, "the machine here reports overflows and continues with the largest number"
+            "a test of overflow", _II, "the emulated 1620 reports overflows and continues with the largest number"
         ),
     ),
     (r"IF\(", ForeignStatement("a logical IF", _IV, "write IF (A-B) n1, n2, n3 for less, equal, greater")),

@@ -164,8 +164,8 @@ class Comparison:
         """Return the message that rounding in the reference run may have given an IF the wrong sign."""
         card, name, text = self._line(pc).place.card, self._reference.name, self._reference.text(value)
         size = "any amount" if bound is None else f"1E{math.ceil(_logarithm(bound)):+03d}"
-        remedy = "use exact, or a reference of more digits"
-        return f"at card {card} {name} has {text}, which its own rounding may have changed by {size}; {remedy}"
+        remedy = "compare with exact arithmetic, or with more digits"
+        return f"at card {card} the value in {name} is {text}, which rounding may have changed by {size}; {remedy}"
 
     def _lost(self, entry: Entry, reference_entry: Entry) -> tuple[float | None, float | None, bool]:
         """Return the digits lost, the relative difference, and True if the reference's rounding explains them.

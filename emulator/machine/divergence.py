@@ -178,7 +178,7 @@ def diverge(
         dominators = dominators or post_dominators(successors(program))
         junction = meeting(dominators, entry[1], reference_entry[1])
         if junction < 0 or not (_reached(first, junction) and _reached(second, junction)):
-            apart = "the branches do not join again"
+            apart = "the two runs took different branches, which do not join again"
             break
     return Divergence(
         program=program.source,

@@ -100,11 +100,11 @@ def _trouble_in(ending: Ending, line: Line) -> str:
     there = f"in {line.label} {line.text}" if line.label else f"in {line.text}"
     match ending.kind:
         case "limit":
-            work = f"one operation would exceed the limit, the work of {ending.count} statements, {there}"
+            work = f"the limit is the work of {ending.count} statements, and one operation would exceed it, {there}"
             return f"{work}; use a larger --limit or numbers of fewer digits"
         case "bounds":
             subscripts, shape = (",".join(map(str, numbers)) for numbers in (ending.subscripts, ending.shape))
-            return f"{ending.name}({subscripts}) is outside {ending.name}({shape}), {there}"
+            return f"{ending.name}({subscripts}) is outside its DIMENSION {ending.name}({shape}), {there}"
         case "outside":
             return f"a subscript reaches outside the data into the program, {there}"
         case "select":
@@ -116,11 +116,11 @@ def _trouble_in(ending: Ending, line: Line) -> str:
         case "mode" if ending.field is not None:
             return f"{ending.name} is {ending.mode} point, but its field in FORMAT {ending.format} is {ending.field}"
         case "mode" if ending.format:
-            return f"FORMAT {ending.format} has no field for the numbers of the statement"
+            return f"FORMAT {ending.format} has no field for the numbers in the list"
         case "mode" if ending.put_out:
             return f"{ending.name} holds a number in {ending.mode} point, which cannot be written, {there}"
         case "record":
-            return f"ERROR F9: a record of FORMAT {ending.format} is longer than the columns of its device, {there}"
+            return f"ERROR F9: a record of FORMAT {ending.format} has more characters than the device columns, {there}"
         case "mode":
             # This occurs only with --bounds core, if a subscript reaches a neighbouring field.
             return f"{ending.name} holds a number in {ending.mode} point, {there}"

@@ -122,7 +122,7 @@ def notes(program: Program, result: Result, reported: Collection[tuple[int, int]
             yield f"warning: {notice.message}"
     if result.ending.kind == "hopper" and result.ending.any_read:
         cards = f"{result.cards_read} card{'s' * (result.cards_read != 1)}"
-        yield f"note: {program.source}: the run ended after {cards}, because {result.ending.outcome}"
+        yield f"note: {program.source}: the run ended after reading {cards}, because {result.ending.outcome}"
     for error in result.errors:
         times = f", {error.times} times" if error.times > 1 else ""
         yield f"note: {program.source}: {error.code} on card {error.card}: {explanations()[error.code].title}{times}"

@@ -168,8 +168,9 @@ def stochastic(name: str) -> StochasticNumbers | StochasticBinaryNumbers | Sampl
     match = _FORM.fullmatch(name)
     if not match or (match["majority"] and not match["last"]):
         raise ArgumentError(
-            f"{name[:40]}: expected {NAME}:P:SEED or {NAME}:BITSb:SEED; SEED is a number, or a range such as 1-10 "
-            "for runs in step; only :proportional may follow, and then, for runs in step, :majority"
+            f"{name[:40]}: expected {NAME}:P:SEED for P decimal digits, or {NAME}:BITSb:SEED for BITS bits; SEED is an "
+            "integer, or a range such as 1-10 for ten runs that all take the same branches; only :proportional may "
+            "follow, and then, for a range, :majority"
         )
     size, seed, last = int(match["size"]), int(match["seed"]), int(match["last"] or match["seed"])
     least, most, what = (MIN_BITS, MAX_BITS, "bits") if match["binary"] else (MIN_DIGITS, MAX_DIGITS, "digits")
@@ -178,7 +179,7 @@ def stochastic(name: str) -> StochasticNumbers | StochasticBinaryNumbers | Sampl
     if max(seed, last) > MAX_SEED:
         raise ArgumentError(f"{name[:40]}: the seed must be 0 to {MAX_SEED}")
     if match["last"] and not 1 <= last - seed < MAX_RUNS:
-        raise ArgumentError(f"{name[:40]}: expected 2 to {MAX_RUNS} runs in step, such as 1-10")
+        raise ArgumentError(f"{name[:40]}: expected a range of 2 to {MAX_RUNS} seeds, such as 1-10")
     rule = PROPORTIONAL if match["proportional"] else CESTAC
 
     def member(number: int, rule: int = rule) -> StochasticNumbers | StochasticBinaryNumbers:

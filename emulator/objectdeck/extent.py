@@ -45,7 +45,7 @@ class Extent:
             return f"OVERLAP: program and data need {about}{need} positions; {room}{advice}"
         return (
             f"OVERLAP is possible: program and data need about {need} positions, {excess} more than a machine of "
-            f"{core} has, but {self.inferred} of them are inferred{advice}"
+            f"{core} has, but {self.inferred} of them are estimated{advice}"
         )
 
     def is_certain(self, core: int) -> bool:

@@ -100,7 +100,7 @@ def job(deck: Deck, program: Program, data: Deck, compiler: Compiler) -> Job:
         if source and not cleared and source.kind not in ("dimension", "format"):
             added = tuple(clearing(program, {part.label for part in statements.values()}))
             changes += (
-                [Change(0, added, "arrays begin as zero, because the compiler does not clear them")] if added else []
+                [Change(0, added, "these cards set the arrays to zero, because the compiler does not")] if added else []
             )
             texts += added
             cleared = True
@@ -140,7 +140,8 @@ def _fitted(name: str, card: Card, source: Source | None, compiler: Compiler) ->
     images = tuple(_image(name, part) for part in source.cards)
     if compiler == "pdq":
         if source.text in _FOR_PDQ:
-            return (f"{source.label:>5} {_FOR_PDQ[source.text]}",), "PDQ's compiler stops at a jump to 184 from outside"
+            reason = "PDQ's compiler stops at a jump to 184 from outside the range of the DO that ends there"
+            return (f"{source.label:>5} {_FOR_PDQ[source.text]}",), reason
         if len(source.cards) == 1:
             return images, ""
         text = source.label + source.text.rstrip()

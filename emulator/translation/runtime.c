@@ -107,7 +107,7 @@ static inline int integer_sign_of(int card, integer value) {
 
 static inline int choice_of(int card, integer value, int labels) {
     value = defined(card, value);
-    if (value < 1 || value > labels) refuse(card, "computed GO TO with the value %" PRId64, value);
+    if (value < 1 || value > labels) refuse(card, "the value %" PRId64 " of a computed GO TO selects no statement number", value);
     record_decision(card, (int)value, (double)value);
     return (int)value;
 }
@@ -150,7 +150,7 @@ static inline integer fixed_of(int card, real value) {
 static inline real float_of(int card, integer value) { return (double)defined(card, value); }
 
 static inline integer index_of(int card, integer subscript, integer size) {
-    if (subscript < 1 || subscript > size) refuse(card, "subscript %" PRId64 " of an array of %" PRId64, subscript, size);
+    if (subscript < 1 || subscript > size) refuse(card, "subscript %" PRId64 " is outside an array of %" PRId64 " elements", subscript, size);
     return subscript - 1;
 }
 
@@ -255,7 +255,7 @@ static inline void end_list(void) {
 
 static inline char next_field(int is_fixed, int *width, int *decimals) {
     if (!reaches_field()) {
-        if (repeated_from < 0) refuse(place, "the FORMAT has no field for the numbers of the statement");
+        if (repeated_from < 0) refuse(place, "the FORMAT has no field for the numbers in the list");
         end_record();
         position = repeated_from;
         reaches_field();

@@ -104,7 +104,8 @@ contains
   integer function choice_of_(card, value, labels)
     integer, intent(in) :: card, labels
     integer(int64), intent(in) :: value
-    if (defined_(card, value) < 1 .or. value > labels) call refuse_(card, 'computed GO TO with the value ' // text_(value))
+    if (defined_(card, value) < 1 .or. value > labels) &
+        call refuse_(card, 'the value ' // text_(value) // ' of a computed GO TO selects no statement number')
     choice_of_ = int(value)
     if (decision_unit /= 0) call record_decision_(card, choice_of_, real(value, real64))
   end function
@@ -163,7 +164,8 @@ contains
     integer, intent(in) :: card, size
     integer(int64), intent(in) :: subscript
     if (subscript < 1 .or. subscript > size) &
-      call refuse_(card, 'subscript ' // text_(subscript) // ' of an array of ' // text_(int(size, int64)))
+      call refuse_(card, 'subscript ' // text_(subscript) // ' is outside an array of ' // text_(int(size, int64)) // &
+                   ' elements')
     at_ = subscript
   end function
 
@@ -362,7 +364,7 @@ contains
     integer :: length, point
     logical :: is_reached
     if (.not. reaches_field_()) then
-      if (repeated_from < 0) call refuse_(place, 'the FORMAT has no field for the numbers of the statement')
+      if (repeated_from < 0) call refuse_(place, 'the FORMAT has no field for the numbers in the list')
       call end_record_()
       position = repeated_from + 1
       is_reached = reaches_field_()

@@ -74,7 +74,7 @@ def main(args: argparse.Namespace) -> int:
         proofs.append(proof)
         print(_line(proof), flush=True)
     if everything and find_spec("numpy") is None:
-        print("left out, because numpy is not installed: the later papers, and the hulls of the layer corrected")
+        print("not checked, because numpy is not installed: the later papers, and the hulls of the layer corrected")
     failed = sum(not proof.holds for proof in proofs)
     print(f"{len(proofs) - failed} of {len(proofs)} checks hold" + (f"; {failed} FAIL" if failed else ""))
     return DIFFERS if failed else OK
@@ -140,7 +140,7 @@ def _write_sheets(folder: str) -> int:
     readings = sum(len(item.variants) for sheet in all_sheets for item in sheet.items)
     asked = sum(len(sheet.questions) for sheet in all_sheets)
     print(f"{folder}: {len(all_sheets)} sheets with {readings} silent readings and {asked} open questions")
-    print_notes([f"note: without PDF: {problem}"] if problem else [])
+    print_notes([f"note: no PDF was written: {problem}"] if problem else [])
     return OK
 
 

@@ -32,7 +32,7 @@ from modern.papers.appel_will.surfaces import Fates, Surface, fates_by_points
 KINDS = ("a point", "a segment", "a polygon", "a polyhedron")
 # The assumption under which each rule of ``--inside-corners`` deletes no vertex of the hull.
 PREMISES: dict[Rule, str] = {
-    "any": "no point lies on more than three planes (well behaved)",
+    "any": "no point lies on more than three planes (the paper calls such an object well behaved)",
     "two": "a vertex of the hull lies on at least three outside corners",
     "concave": "a surface has an angle below 180 degrees at a vertex of the hull",
 }
@@ -65,7 +65,7 @@ def main(args: argparse.Namespace) -> int:
         write_text(args.output, _written(args, source, surfaces, hull, mesh, joined, eye))
     print_notes(f"note: {note}" for note in source.notes)
     if args.literal or args.printed is not None:
-        print_notes([f"note: used as printed: {', '.join(names)}"])
+        print_notes([f"note: these rules are applied as the paper prints them: {', '.join(names)}"])
     print_notes(
         f"note: {source.source}: {source.places[index]} repeats the point of {source.places[first]}"
         for index, first in hull.duplicates
@@ -165,7 +165,7 @@ def _summary(source: Input, inputs: Sequence[Surface], hull: Assembled, joined: 
     yield _first_line(source, inputs)
     if hull.preprocessing is not None:
         deleted_first = counted(len(hull.preprocessing.deleted), "point")
-        yield f"{deleted_first} deleted by rule {hull.preprocessing.rule} before any projection"
+        yield f"{deleted_first} deleted before the first projection by the rule {hull.preprocessing.rule}"
     if hull.deleted:
         yield f"{counted(len(hull.deleted), 'point')} deleted as lying between two others"
     yield _kind(hull)
@@ -187,9 +187,9 @@ def _summary(source: Input, inputs: Sequence[Surface], hull: Assembled, joined: 
 
 
 def _sizes(loops: Sequence[Sequence[int]]) -> str:
-    """Return how many loops have each number of lines: `` (4 of 3 lines, 1 of 5 lines)``."""
+    """Return how many loops have each number of lines: `` (4 with 3 lines, 1 with 5 lines)``."""
     sizes = Counter(map(len, loops))
-    return f" ({', '.join(f'{sizes[size]} of {size} lines' for size in sorted(sizes))})" if sizes else ""
+    return f" ({', '.join(f'{sizes[size]} with {size} lines' for size in sorted(sizes))})" if sizes else ""
 
 
 def _first_line(source: Input, inputs: Sequence[Surface]) -> str:
@@ -212,18 +212,20 @@ def _compared(inputs: Sequence[Surface], hull: Assembled, joined: Joined | None)
 def _preprocessing(preprocessing: Preprocessing) -> Iterator[str]:
     lines = (f"{_line(c.line.ends)} (surfaces {c.line.on + 1}, {c.line.beyond + 1})" for c in preprocessing.inside)
     yield f"inside corners: {', '.join(lines) or 'none'}"
-    yield f"deleted by rule {preprocessing.rule} before any projection: {_points(preprocessing.deleted) or 'none'}"
+    deleted = _points(preprocessing.deleted) or "none"
+    yield f"points deleted before the first projection by the rule {preprocessing.rule}: {deleted}"
     yield f"  premise: {PREMISES[preprocessing.rule]}"
     if preprocessing.rule == "any":
         if preprocessing.crowded:
-            yield f"  NOT valid at {_points(preprocessing.crowded)}: the hull may be wrong; use rule two or concave"
+            points = _points(preprocessing.crowded)
+            yield f"  it does NOT hold at {points}: the hull may be wrong; use the rule two or concave"
         else:
-            yield "  valid for the input surfaces"
+            yield "  it holds for the input surfaces"
 
 
 def _growth(loop: Loop, width: int) -> Iterator[str]:
     """Yield a line with the type and the points SP and MP of a loop, and a table of each edge's uses after the loop."""
-    yield f"  type {loop.kind}, SP {loop.start + 1}, MP {loop.match + 1}"
+    yield f"  type {loop.kind}, start SP {loop.start + 1}, match MP {loop.match + 1}"
     cell = len(str(len(loop.uses))) + 1
     columns = max(1, (width - len("  IUC(L)")) // cell)
     for first in range(0, len(loop.uses), columns):

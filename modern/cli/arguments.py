@@ -17,7 +17,7 @@ from modern.cli.shared.console import Folder, InputFile, OutputFile
 def _reproduce(parser: ArgumentParser) -> None:
     names = (
         "the number of an example (1 to 6), a theorem such as 4.1, a document (thesis, yau-srihari, ...) or the id of "
-        "a statement (default: everything)"
+        "a statement of a document, such as thesis.16 (default: everything)"
     )
     add(parser, {"examples NAME": names}, nargs="*")
     add(parser, {"--show": "show each printed result next to the computed one"})
@@ -41,7 +41,9 @@ def _hull(parser: ArgumentParser) -> None:
         "pass numbers from program 1 to the next program with all their digits instead of the eight that a card holds"
     )
     add(parser, {"--uncut": uncut})
-    shared.epsilon_argument(parser, "punch", "on the first card, after N, and apply the layer epsilon, which reads it")
+    shared.epsilon_argument(
+        parser, "punch", "on the first card, after the number of points N, and apply the layer epsilon, which reads it"
+    )
     explain = "explain why there is no hull, and report the first branch that exact arithmetic takes differently"
     add(parser, {"--explain": explain})
     shared.result_arguments(parser)
@@ -68,17 +70,17 @@ def _digits(parser: ArgumentParser) -> None:
     shared.program_argument(parser, "examine")
     shared.deck_argument(parser, "a file of data cards (may be omitted if the program reads no cards)")
     add(parser, {"--against NAME": "take this arithmetic as the truth (default: %(default)s)"}, default="exact")
-    add(parser, {"--runs N": "make N stochastic runs with the digits of --arithmetic (default: 10)"}, type=int)
+    add(parser, {"--runs N": "make N runs with random rounding and the digits of --arithmetic (default: 10)"}, type=int)
     add(parser, {"--seed S": "give the runs the seeds S, S + 1, ... (default: 1)"}, type=int)
     modes = {
         "--proportional": "round up with a probability proportional to the rounded-off part, instead of 1/2",
-        "--majority": "follow the branch that most runs would take, instead of the branch for their mean",
-        "--independent": "estimate the printed numbers from runs that each follow their own branches",
+        "--majority": "let all runs take the branch that most of them would take, instead of that for their mean",
+        "--independent": "estimate the printed numbers from runs of which each takes its own branches",
     }
     add(parser, modes)
     outputs = {
         "--csv FILE": "write the tables to FILE as CSV",
-        "--html FILE": "write the report to FILE as a page",
+        "--html FILE": "write the report to FILE as an HTML page",
         "--samples FILE": "write the printed numbers of every run to FILE as a NumPy array, one row for each run",
     }
     add(parser, outputs, type=OutputFile)
@@ -94,7 +96,8 @@ def _listing(parser: ArgumentParser) -> None:
     )
     add(parser, {"--against NAME": against}, default="exact")
     digits = (
-        "for each statement, add the smallest number of digits that its values have in common in ten stochastic runs"
+        "for each statement, add the smallest number of digits that its values have in common in ten runs with random "
+        "rounding"
     )
     add(parser, {"--digits": digits})
     add(
@@ -112,12 +115,12 @@ def _study(parser: ArgumentParser) -> None:
     lists = {
         "--list": "list the built-in studies",
         "--families": "list the families of point sets for plan files",
-        "--measures": "list the measures that a plan file can name",
+        "--measures": "list the additional figures (measures) that a plan file can name",
     }
     add(parser, lists)
     counts = {
-        "--samples N": "draw N samples (default: depends on the study; see --list)",
-        "--seed S": "draw all samples from this seed (default: 1963)",
+        "--samples N": "draw N point sets in each cell that does not fix its own number (default: see --list)",
+        "--seed S": "draw all point sets from this seed (default: 1963)",
         "--workers W": "use W processes (default: one per processor)",
     }
     add(parser, counts, type=int)
@@ -126,7 +129,7 @@ def _study(parser: ArgumentParser) -> None:
     studies = {
         "--resume": "continue the unfinished study in the folder",
         "--redraw DIR": "draw the plots of the finished study in DIR again, from its charts.json",
-        "--verify DIR": "compare the rows of the study in DIR with their checksums",
+        "--verify DIR": "compare the stored results of the study in DIR with their checksums",
         "--quiet": "show no progress",
     }
     add(parser, studies)
@@ -140,7 +143,7 @@ def _apparatus(parser: ArgumentParser) -> None:
         "and necessary",
     }
     add(parser, rows)
-    text = "with --check: compare the project's excerpts with FILE, a whole OCR text"
+    text = "with --check: compare the excerpts in this project with FILE, the whole OCR text of a document"
     add(parser, {"--text FILE": text}, type=InputFile)
     collate = "compare every reading of the listings with FILE, another transcription of the listings or of a part"
     add(parser, {"--collate FILE": collate}, type=InputFile)
@@ -153,7 +156,7 @@ def _apparatus(parser: ArgumentParser) -> None:
     add(parser, {"--weigh FOLDER": weigh}, type=Folder)
     restore = (
         "damage the listings as the OCR did, restore them by the rules of the apparatus in a process that cannot read "
-        "the originals, and count the errors by class of certainty; copies already in FOLDER are kept"
+        "the originals, and count the errors for each certainty of a reading; copies already in FOLDER are kept"
     )
     add(parser, {"--restore FOLDER": restore}, type=Folder)
     runs = (
@@ -187,7 +190,7 @@ def _program(parser: ArgumentParser) -> None:
 def _compile(parser: ArgumentParser) -> None:
     _program(parser)
     add(parser, {"--object": "punch the program as an object deck for IBM's library of 1962"})
-    library = "with --object: put the program into DECK, an object deck with IBM's library"
+    library = "with --object: replace the program in DECK, an object deck that contains IBM's library"
     add(parser, {"--library DECK": library}, type=InputFile)
     shared.core_argument(parser)
     shared.output_argument(parser)
@@ -209,7 +212,10 @@ def _translate(parser: ArgumentParser) -> None:
     shared.layers_argument(parser)
     shared.upcase_argument(parser)
     add(parser, {"--to": "write C, free-form Fortran 2018, or FPCore 2.0"}, choices=("fortran", "c", "fpcore"))
-    benchmark = "write the benchmark for authors of tools to DIR: programs, formulas, decks with exact verdicts"
+    benchmark = (
+        "write a benchmark for authors of numerical tools to DIR: programs, formulas, and decks with the decisions "
+        "that exact arithmetic takes"
+    )
     add(parser, {"--benchmark DIR": benchmark}, type=Folder)
     shared.output_argument(parser)
 
@@ -235,7 +241,7 @@ def _tei(parser: ArgumentParser) -> None:
     add(parser, {"text TEXT": "a document such as program1, chapter6 or statements-thesis"}, nargs="?")
     shared.output_argument(parser)
     which = parser.add_mutually_exclusive_group()
-    add(which, {"--all FOLDER": "write every document, the schema and its ODD to FOLDER"}, type=Folder)
+    add(which, {"--all FOLDER": "write every document, the schema and its TEI source (ODD) to FOLDER"}, type=Folder)
     add(which, {"--schema": "write the RELAX NG schema of the documents"})
     check = "validate TEXT, or every text, against a RELAX NG schema in XML (default: the project's own)"
     add(which, {"--check SCHEMA": check}, type=InputFile, nargs="?", const="")
@@ -271,7 +277,7 @@ def _map(parser: ArgumentParser) -> None:
 
 
 def _bench(parser: ArgumentParser) -> None:
-    add(parser, {"--decks N": "run N decks of 51 points (default: %(default)s)"}, type=int, default=1000)
+    add(parser, {"--decks N": "run program 3 on N decks of 51 points (default: %(default)s)"}, type=int, default=1000)
     shared.json_argument(parser, "figures")
 
 
@@ -282,10 +288,16 @@ COMMANDS: dict[str, tuple[str, Callable[[ArgumentParser], None]]] = {
     "run": ("run a FORTRAN program on the emulated 1620", _run),
     "hull": ("find the hull of a data deck: run program 1, then the program that it names on the typewriter", _hull),
     "cards": ("punch points as a data deck", point_arguments.cards),
-    "diff": ("compare the hulls of the 1963 programs, the port and the exact hull", point_arguments.diff),
+    "diff": (
+        "compare the hulls of the 1963 programs and of their port to Python with the exact hull",
+        point_arguments.diff,
+    ),
     "diverge": ("run a program in two arithmetics, and report the first value and branch that differ", _diverge),
     "digits": ("report which printed digits are significant, and which statements lose them", _digits),
-    "study": ("find and judge the hulls of many point sets, and report a table, plots and conclusions", _study),
+    "study": (
+        "find the hulls of many point sets in several ways, compare them with the exact hulls, and write a report",
+        _study,
+    ),
     "export": ("write the exact hull of points as a mesh or as JSON", point_arguments.export),
     "draw": ("draw the exact hull of points as SVG", point_arguments.draw),
     "appel-will": ("find the hull of a polyhedron from its convex edges, by Appel & Will", point_arguments.appel_will),
@@ -308,5 +320,5 @@ COMMANDS: dict[str, tuple[str, Callable[[ArgumentParser], None]]] = {
     "flowchart": ("draw the flow chart of a program as SVG", _flowchart),
     "punched": ("draw a deck as punched cards, as SVG", _punched),
     "tei": ("write the edition as TEI P5, validate it, or read decks back from it", _tei),
-    "bench": ("compare the speed of the engines", _bench),
+    "bench": ("compare the speed of the engines that run the emulated programs", _bench),
 }

@@ -88,7 +88,7 @@ def _routes(args: argparse.Namespace, source: Input, points: list[Vector]) -> It
             yield Route(Outcome(name, _NOT_RUN, -1), obstacle=deck)
             continue
         if "epsilon" in applied and (args.epsilon or "").startswith("rel:"):
-            yield Route(Outcome(name, _NOT_RUN, -1), obstacle="a card holds an absolute e, not rel:E")
+            yield Route(Outcome(name, _NOT_RUN, -1), obstacle="a card cannot hold a scaled tolerance, rel:E")
             continue
         data = punch_epsilon(deck, args.epsilon or "0") if "epsilon" in applied else deck
         options = Options(limit=_LIMIT, core=60000 if applied else 40000)
@@ -102,11 +102,11 @@ def _routes(args: argparse.Namespace, source: Input, points: list[Vector]) -> It
 def _deck(source: Input) -> Deck | str:
     """Return the points as a data deck, or a message if a deck cannot hold them."""
     if len(source.points) > MAX_POINTS:
-        return f"{len(source.points)} points; the programs accept {MAX_POINTS}"
+        return f"{len(source.points)} points; the programs accept at most {MAX_POINTS}"
     try:
         return data_deck(source.points, source.source)
     except UnfitPoint as error:
-        remedy = "; compare the deck that hull1620 cards --truncate makes" if error.digits else ""
+        remedy = "; to truncate them, make a deck with hull1620 cards --truncate and compare it" if error.digits else ""
         return f"{source.places[error.point - 1]}: {error.why}{remedy}"
 
 

@@ -78,7 +78,8 @@ def main(args: argparse.Namespace) -> int:
         tables.append(_cards(*sensitivities(machine, exact)))
     heading = (
         f"{program.source}, {deck.source}: {options.numbers.name} against {reference.name}; "
-        f"{len(numbers_in_step.members)} stochastic runs {'one by one' if runs else 'in step'} ({numbers_in_step.name})"
+        f"{len(numbers_in_step.members)} runs with random rounding{', each with its own branches' if runs else ''} "
+        f"({numbers_in_step.name})"
     )
     print_report(args, _terminal(heading, tables))
     if args.csv is not None:
@@ -143,16 +144,16 @@ def _numbers(result: Result, truth: Numbers, reference: Result | None, runs: Sam
                 fewer = min(estimated.parker, most), min(estimated.sohier, most)
                 estimated = replace(estimated, parker=fewer[0], sohier=fewer[1])
             rows.append((str(record), columns, _one(true), *_estimated(estimated), _verdict(estimated, true)))
-    sentences = [f"true digits: against {truth.name}"]
+    sentences = [f"true: digits that agree with a run in {truth.name} arithmetic"]
     if not same:
-        sentences = [f"{truth.name} prints other records, so true digits are not known"]
+        sentences = [f"the true digits are unknown, because a run in {truth.name} arithmetic prints other records"]
     if studied and not estimates:
-        sentences.append("the stochastic runs print other records, so no digits can be estimated")
+        sentences.append("no digits can be estimated, because the runs with random rounding print other records")
     if not result.ending.normal:
         sentences.append(f"the run ended early: {result.ending.outcome}")
     if isinstance(runs, Independent):
         shares = " + ".join(map(str, runs.shares))
-        sentences.append(f"independent runs that print the same records, apart from digits: {shares}")
+        sentences.append(f"groups of runs that print the same records, apart from digits: {shares}")
     return Table("Printed numbers", sentences, ("line", "number", "true", "estimated", "at least", "verdict"), rows)
 
 
@@ -181,7 +182,8 @@ def _verdict(estimated: Estimate | None, true: float | None) -> str:
     if estimated is None:
         return "not estimated"
     if estimated.is_exact:
-        return "no rounding affects it" if true is None or true > estimated.parker - 1 else "stable, but wrong"
+        is_wrong = true is not None and true <= estimated.parker - 1
+        return "no rounding affects it" + ", but it is wrong" * is_wrong
     if estimated.is_zero:
         return "no digit is significant"
     if true is not None and true < estimated.sohier - 1:
@@ -214,7 +216,10 @@ def _decisions(
     tested = sum(row.times for row in decisions)
     disputed = [row for row in decisions if row.disputed]
     total = sum(row.disputed for row in disputed)
-    sentences.append(f"stochastic runs: {counted(tested, 'decision')} on floating-point numbers, {total} disputed")
+    sentences.append(
+        f"random rounding: {counted(tested, 'decision')} on floating-point numbers; the runs disagree on {total} "
+        "(disputed)"
+    )
     digits = max(2, math.ceil(min(options.numbers.digits, 1_000)))
     _, guaranteed = _run(program, deck, options, numbers(f"interval:{digits}"))
     if guaranteed is not None:
@@ -245,7 +250,8 @@ def _statements(divergence: Divergence, sampling: Sampling) -> Table:
             lost = ("", "") if loss is None else (_one(loss.worst), _one(loss.median))
             digits = _one(row.worst), _one(row.median), _one(row.sure), str(row.zeros)
             rows.append((*_columns(row.line), str(row.times), *lost, *digits))
-    sentences = [f"digits of {sampling.numbers.digits:.1f}; statements that are not listed are exact in every run"]
+    most = f"{sampling.numbers.digits:.1f}"
+    sentences = [f"digits, of at most {most}; statements that are not listed are exact in every run"]
     if divergence.first_value is not None:
         value = divergence.first_value
         sentences.append(
@@ -268,7 +274,7 @@ def _cards(rows: Sequence[Sensitivity], omitted: int) -> Table:
         cells.append((str(row.card), str(row.column), row.columns.strip(), row.changed.strip(), effect, line))
     sentences = ["the largest relative change of a printed number if one number of the deck changes in its last digit"]
     if omitted:
-        sentences.append(f"the last {omitted} numbers that the run reads were not changed")
+        sentences.append(f"the last {omitted} numbers that the run reads were not examined")
     return Table("Input cards", sentences, ("card", "column", "number", "changed to", "change", "line"), cells)
 
 

@@ -96,7 +96,8 @@ def build_parser(tokens: Sequence[str] = ()) -> Parser:
         prog="hull1620",
         description="Run Karen Jensen Butler's convex hull programs of 1963 on an emulated IBM 1620, find exact hulls, "
         "study numerical errors, and run the algorithms of four later papers.",
-        epilog="PROGRAM.f is a file, or one of program1, program2, program3 and program1_examples. "
+        epilog="PROGRAM.f is a file, or one of program1, program2 and program3 (the listings of the thesis) and "
+        "program1_examples (program 1 as it ran the examples of the thesis). "
         "'-' means standard input or standard output.",
     )
     parser.add_argument("--version", action="version", version=f"hull1620 {version()}" if "--version" in tokens else "")

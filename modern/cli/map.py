@@ -31,7 +31,7 @@ def map_lines(program: Program, core: int) -> Iterator[str]:
     """
     size = extent(program)
     about = "~" if size.inferred else ""
-    note = " (~: partly inferred)" if size.inferred else ""
+    note = " (~: partly estimated)" if size.inferred else ""
     yield f"{program.source}: storage in a machine of {core} positions{note}"
     yield f"  {'name':<20}{'kind':<18}{'fields':>7}  {'from':>6}  {'down to':>7}"
     for entry in program.storage.entries:
@@ -47,7 +47,7 @@ def map_lines(program: Program, core: int) -> Iterator[str]:
     lowest = core_address(program.storage.fields, core) + 1
     yield f"  data: {size.data} positions, from {core_address(0, core)} down to {lowest}"
     excess = size.excess(core)
-    free = f"{about}{excess} positions too many" if excess > 0 else f"free between them: {about}{-excess}"
+    free = f"{about}{excess} positions too many" if excess > 0 else f"free between program and data: {about}{-excess}"
     yield f"  program: {about}{size.code} positions from 08300; {free}"
     if excess > 0:
         yield f"  {size.overlap(core)}"

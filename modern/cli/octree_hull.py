@@ -42,7 +42,7 @@ def main(args: argparse.Namespace) -> int:
     x, y, z = (*volume.origin, 0)[:3]
     print_report(args, _lines(hull, volume.source, (x, y, z), args.tables or args.trace, args.trace))
     if printed.names():
-        print_notes([f"note: used as printed: {', '.join(printed.names())}"])
+        print_notes([f"note: these statements are applied as the paper prints them: {', '.join(printed.names())}"])
     print_notes(f"note: {fault}" for fault in hull.faults)
     if writes_array:
         print_notes(array_note(args.output, volume))
@@ -86,14 +86,14 @@ def _lines(hull: OctreeHull, source: str, origin: Point, tables: bool, trace: bo
         yield _summary("floor", hull.lower, hull.columns)
         yield _summary("ceiling", hull.upper, hull.columns)
     parts = hull.components
-    name = "digital hull" if parts == 1 else f"digital points of the hull of {parts} 6-connected parts"
+    name = "digital hull" if parts == 1 else f"digital points of the hull of {parts} parts that no voxel faces connect"
     yield f"{name}: {counted(hull.voxels, 'voxel')}, an octree of {counted(nodes(hull.hull), 'node')}"
 
 
 def _summary(name: str, envelope: Envelope, columns: int) -> str:
     chain, faces = envelope.chain, envelope.faces
-    shape = f"over one line, {len(chain)} vertices" if chain else counted(len(faces), "face")
-    return f"{name}: {len(envelope.reduced)} of {columns} columns are in the reduced set; {shape}"
+    shape = f"they lie on one line, with {len(chain)} vertices" if chain else counted(len(faces), "face")
+    return f"{name}: {len(envelope.reduced)} of {columns} columns are in the reduced set (possible vertices); {shape}"
 
 
 def _table(name: str, heights: dict[Place, int]) -> Iterator[str]:
@@ -115,13 +115,13 @@ def _side(name: str, envelope: Envelope, columns: int, origin: Point, sign: int,
     def at(point: Point) -> Point:
         return point[0] + origin[0], point[1] + origin[1], sign * point[2] + origin[2]
 
-    yield f"{name}: {len(envelope.reduced)} of {columns} columns are in the reduced set:"
+    yield f"{name}: {len(envelope.reduced)} of {columns} columns are in the reduced set (possible vertices):"
     yield from _wrapped(_tuple(at(point)) for point in envelope.reduced)
     if trace:
         for number, step in enumerate(envelope.steps, 1):
             yield from _trace(number, step, at, sign)
     if envelope.chain:
-        yield f"{name}: over one line; vertices of its envelope:"
+        yield f"{name}: its columns lie on one line; vertices of its envelope:"
         yield from _wrapped(_tuple(at(point)) for point in envelope.chain)
         return
     yield f"{name}: {counted(len(envelope.faces), 'face')}, outward normal and vertices:"

@@ -203,7 +203,8 @@ def _summary_lines(
             f"{len(exact)} of {len(punched)} printed results exact, {cards} of {all_cards} cards, {numbers} numbers"
         )
         kinds = Counter(r.verdict.kind for r in listed)
-        yield f"As listed: {', '.join(f'{kinds[k]} {k}' for k in (EXACT, ORDER, SPACING, DIFFERENT) if kinds[k])}."
+        parts = ", ".join(f"{kinds[k]} {k}" for k in (EXACT, ORDER, SPACING, DIFFERENT) if kinds[k])
+        yield f"Printed results with the listing of program 1: {parts}."
         yield f"With program 1 in the state that was rebuilt from these results: {counts}."
     if theorems:
         yield f"Chapter 4: {sum(judged.agrees for judged in theorems)} of {len(theorems)} verdicts are as recorded."

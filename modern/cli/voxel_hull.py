@@ -168,7 +168,7 @@ def _ending(path: str) -> str:
 def _count_lines(hull: VoxelHull) -> Iterator[str]:
     """Yield the counts of local corners (section 2 of the paper) and the sizes of the cell lists (section 4)."""
     noun = "voxels" if hull.of == CENTRES else "voxel vertices"
-    counts = ", ".join(f"{count} by {tested} neighbours" for tested, count in hull.corners.items())
+    counts = ", ".join(f"{count} when testing {tested} neighbours" for tested, count in hull.corners.items())
     yield f"local corners of the {noun}: {counts}"
     surface = hull.surface
     if isinstance(surface, Flat):
@@ -182,11 +182,13 @@ def _count_lines(hull: VoxelHull) -> Iterator[str]:
         triangles, shuffled = len(surface.triangulation.faces), ", shuffled" if hull.order == SHUFFLED else ""
         yield f"inserted: {len(hull.inserted)} local corners{shuffled}; {triangles} triangles"
         yield f"merged: {_cells(faces)}"
-        saved = f"{triangulation_size(triangles)} for the triangles by formula (5), "
+        saved = f"{triangulation_size(triangles)} for the triangles by the paper's formula (5), "
     if len(straight.vertices) < len(faces.vertices):
         yield f"with collinear edges merged: {_cells(straight)}"
     by_formula, by_count = cell_list_size(len(faces.vertices), len(faces.faces)), economical_size(faces)
-    yield f"integers to save: {saved}{by_formula} for the cell list by formula (6), {by_count} counted"
+    yield (
+        f"integers to save: {saved}{by_formula} for the cell list by the paper's formula (6), or {by_count} by counting"
+    )
 
 
 def _cells(cells: CellList) -> str:

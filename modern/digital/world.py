@@ -152,7 +152,8 @@ def voxel_volume(world: World | None) -> Fraction:
         return Fraction(1)
     if len(world.steps) != len(world.origin):
         raise VolumeError(
-            f"{len(world.steps)} axes in a space of {len(world.origin)} dimensions: a pixel's area is not a fraction"
+            f"{len(world.steps)} axes in a space of {len(world.origin)} dimensions: the area of a pixel may be "
+            "irrational, and areas are computed as exact fractions"
         )
     return abs(determinant(world.steps))
 

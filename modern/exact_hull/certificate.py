@@ -87,7 +87,8 @@ def _check_classes(points: Coordinates, hull: ExactHull) -> None:
     members = [*hull.vertices, *hull.boundary, *hull.inside, *(index for index, _ in hull.duplicates)]
     complete = len(members) == len(points) and set(map(type, members)) == {int} and min(members) >= 0
     complete = complete and max(members) < len(points) and bool(np.bincount(members, minlength=len(points)).all())
-    require(complete, "a point is in no class or in two classes, or an index is invalid")
+    lists = "vertices, boundary points, inside points and duplicates"
+    require(complete, "a point is in none or in several of the lists of {}, or an index is invalid", lists)
     # A point must be listed as a duplicate of the first point with its coordinates, unless it is that first point.
     stated, true = dict(hull.duplicates), dict(points.duplicates)
     for index in sorted(stated.keys() | true.keys()):

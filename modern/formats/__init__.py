@@ -45,7 +45,7 @@ HULLS = (*MESHES, "json", "html")
 # Formats from which points are read, each with its name in help and messages.  ``points.py`` calls their readers.
 POINTS = {
     "deck": "a data deck",
-    "csv": "a list (x,y,z a line, or with blanks, tabs, semicolons)",
+    "csv": "a list of points (x,y,z on each line, or with blanks, tabs or semicolons)",
     "off": "OFF",
     "obj": "OBJ",
     "ply": "PLY",

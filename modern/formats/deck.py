@@ -128,7 +128,7 @@ def with_epsilon(deck: Deck, epsilon: object) -> Deck:
     """
     size = read_epsilon(epsilon)
     if size is None or size[1]:
-        raise ArgumentError("epsilon: a card holds an absolute e, not a relative one (rel:)")
+        raise ArgumentError("epsilon: a card can hold a number e, but not a scaled tolerance rel:E")
     try:
         field = coordinate_field(epsilon if isinstance(epsilon, str) else exact_text(size[0]))
     except ValueError as error:
@@ -211,10 +211,10 @@ def _count(deck: Deck, card: Card, warnings: list[DeckWarning], last: int) -> in
         number = read_fixed(columns)
     except FieldError:
         raise CardError(
-            deck.source, card.number, 1, f"N, in columns 1-2, is {columns!r}, which is not a number"
+            deck.source, card.number, 1, f"the number of points, in columns 1-2, is {columns!r}, which is not a number"
         ) from None
     if not columns.strip():
-        raise CardError(deck.source, card.number, 1, "N, in columns 1-2, is blank")
+        raise CardError(deck.source, card.number, 1, "the number of points, in columns 1-2, is blank")
     n = number.mantissa
     if not 1 <= n <= MAX_POINTS:
         raise CardError(deck.source, card.number, 1, f"N is {n}; the programs accept 1 to {MAX_POINTS} points")
@@ -235,7 +235,8 @@ def _interval(deck: Deck, card: Card, rules: Rules, warnings: list[DeckWarning])
     except FieldError as error:
         raise CardError(deck.source, card.number, _E_FIRST, f"e: {error}") from None
     if number.mantissa < 0:
-        raise CardError(deck.source, card.number, _E_FIRST, "e is negative, so that no value lies from -e to +e")
+        message = "the tolerance e is negative, so that no value lies from -e to +e"
+        raise CardError(deck.source, card.number, _E_FIRST, message)
     if number.remark:
         warnings.append(DeckWarning(deck.source, card.number, _E_FIRST, f"e: {number.remark.message}"))
 

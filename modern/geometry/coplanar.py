@@ -185,12 +185,14 @@ def _face(hull: Hull, group: Sequence[int], loop: Sequence[int], left_out: set[i
 def join_summary(joined: Joined) -> str:
     """Return a line for the user: numbers of faces, largest deviation, and the smallest E that joins one more face."""
     within = distance_text(joined.within)
-    following = "" if joined.beyond is None else f"the next face is joined if E is at least {root_text(joined.beyond)}"
+    following = ""
+    if joined.beyond is not None:
+        following = f"another face is joined if the distance is at least {root_text(joined.beyond)}"
     if len(joined.groups) == joined.faces:
         return f"no two of {joined.faces} faces lie within {within} of one plane" + (following and f"; {following}")
     parts = [
         f"{joined.faces} faces are joined into {len(joined.groups)} within {within}",
-        f"a vertex lies at most {root_text(joined.square)} from its plane",
+        f"a vertex lies at most {root_text(joined.square)} from the plane of its joined face",
     ]
     if joined.left_out:
         count = len(joined.left_out)

@@ -48,8 +48,12 @@ def result_arguments(parser: ArgumentParser) -> None:
         "ACCEPT or PAUSE)"
     )
     add(parser, {"--operator =FILE": operator}, type=InputFile)
-    add(parser, {"--log FILE": "record the actions of the operator in FILE, for --operator=FILE"}, type=OutputFile)
-    add(parser, {"--slow": "type ten characters per second at the terminal"})
+    add(
+        parser,
+        {"--log FILE": "record the actions of the operator in FILE; --operator=FILE repeats them"},
+        type=OutputFile,
+    )
+    add(parser, {"--slow": "type on the terminal as slowly as the typewriter of the 1620, ten characters per second"})
     machine_arguments(parser)
 
 
@@ -58,9 +62,10 @@ def machine_arguments(parser: ArgumentParser) -> None:
     switch = {"--switch N": "turn sense switch N (1 to 4) on (default: all are off)"}
     add(parser, switch, type=int, action="append", choices=(1, 2, 3, 4), default=[])
     arithmetic = (
-        "calculate with truncating, ibm1962, truncating1962, truncating:P, guarded:P, rounding:P, float64, float32, "
-        "mp:BITS, exact, stochastic:P:SEED, stochastic:BITSb:SEED or interval:P (default: %(default)s, the eight "
-        "digits of the thesis)"
+        "calculate with truncating, ibm1962, truncating1962, float64, float32 or exact; with P decimal digits: "
+        "truncating:P, guarded:P, rounding:P, interval:P or stochastic:P:SEED; or with BITS binary digits: mp:BITS or "
+        "stochastic:BITSb:SEED. stochastic rounds at random; SEED is an integer, or a range such as 1-10 for ten runs "
+        "that all take the same branches (default: %(default)s, the eight digits of the thesis)"
     )
     add(parser, {"--arithmetic NAME": arithmetic}, default="truncating")
     core_argument(parser)
@@ -110,8 +115,8 @@ def json_argument(parser: ArgumentParser, contents: str) -> None:
 def printed_arguments(parser: ArgumentParser, rules: str, names: str) -> None:
     """Add the options that select which rules of a method are applied as the paper prints them, not corrected."""
     texts = {
-        "--literal": f"apply every {rules} as the paper prints it",
-        "--printed NAME,...": f"apply only these {rules}s as printed: {names}",
+        "--literal": f"apply every {rules} as the paper prints it (default: with the corrections of this project)",
+        "--printed NAME,...": f"apply only these {rules}s as printed, and the others corrected: {names}",
     }
     add(parser.add_mutually_exclusive_group(), texts)
 
@@ -144,8 +149,10 @@ def coplanar_argument(parser: ArgumentParser) -> None:
 
 def layers_argument(parser: ArgumentParser) -> None:
     text = (
-        "apply these optional layers of emendations to a built-in program: corrected, epsilon, translation, or "
-        "examples for program 1 (default: none; for diff: corrected)"
+        "change a built-in program by these optional layers of the edition: corrected (known faults corrected), "
+        "epsilon and translation (the two proposals of chapter 7), or for program 1 examples (its state when the "
+        "examples ran) "
+        "(default: none; for diff: corrected)"
     )
     add(parser, {"--layers LAYER,...": text}, default="")
 
@@ -156,7 +163,10 @@ def upcase_argument(parser: ArgumentParser) -> None:
 
 def points_argument(parser: ArgumentParser, metavar: str = "POINTS", note: str = "") -> None:
     """Add a file of points in any supported format."""
-    text = f"{listed(POINTS.values())}{note}, or an example: example5, seventy/17, appel-will/fig18"
+    text = (
+        f"{listed(POINTS.values())}{note}, or the name of a set: example5 of the thesis, sample seventy/17 of a study, "
+        "or figure appel-will/fig18 of a paper"
+    )
     add(parser, {f"points {metavar}": text}, type=InputFile)
 
 

@@ -52,7 +52,7 @@ def deck_of(name: str, points: bool = False) -> Deck:
     if is_figure and not os.path.exists(name):
         return data_deck(parse_bytes(data, source).points, name)
     command = f"hull1620 cards {name} -o points.deck makes a deck of it"
-    raise UsageError(f"{source}: {POINTS[kind]}, not a data deck; {command}")
+    raise UsageError(f"{source}: expected a data deck, found {POINTS[kind]}; {command}")
 
 
 def punch_epsilon(deck: Deck, epsilon: str) -> Deck:

@@ -15,12 +15,18 @@ def cards(parser: ArgumentParser) -> None:
     shared.points_argument(parser)
     shared.output_argument(parser, "DECK")
     add(parser, {"--truncate": "truncate numbers with more digits than a card holds instead of failing"})
-    shared.epsilon_argument(parser, "punch", "on the first card, after N, for the layer epsilon")
+    shared.epsilon_argument(
+        parser, "punch", "on the first card, after the number of points N; the layer epsilon reads it"
+    )
 
 
 def diff(parser: ArgumentParser) -> None:
     shared.points_argument(parser)
-    shared.epsilon_argument(parser, "use", "in the layer epsilon and in the port, or rel:E in the port only")
+    shared.epsilon_argument(
+        parser,
+        "use",
+        "in the layer epsilon and in the port; rel:E, which only the port accepts, scales it to each equation",
+    )
     shared.json_argument(parser, "comparison")
     add(parser, {"--explain": "if a program gives no hull, explain the reason"})
     shared.layers_argument(parser)
@@ -36,7 +42,7 @@ def export(parser: ArgumentParser) -> None:
 
 def draw(parser: ArgumentParser) -> None:
     shared.points_argument(parser)
-    shared.output_argument(parser, formats=" as SVG (.svg), or with the extra plot as PDF or PNG")
+    shared.output_argument(parser, formats=" as SVG (.svg), or if hull1620[plot] is installed as PDF or PNG")
     parser.set_defaults(endings=(".svg", ".pdf", ".png"))
     shared.eye_argument(parser)
     shared.title_argument(parser, "the name of the file")
@@ -56,8 +62,8 @@ def draw(parser: ArgumentParser) -> None:
     against = "highlight differences from the hull on CARDS, punched by hull1620 hull"
     add(which, {"--against CARDS": against}, type=InputFile)
     stages = {
-        "--stages": "draw the stages H1 to Hf of the construction in a row",
-        "--animate": "animate the stages H1 to Hf of the construction",
+        "--stages": "draw the successive hulls H1 to Hf of the thesis's procedure in a row",
+        "--animate": "animate the successive hulls H1 to Hf of the thesis's procedure",
     }
     add(which, stages)
 
@@ -66,12 +72,13 @@ def appel_will(parser: ArgumentParser) -> None:
     shared.points_argument(parser, "FILE", " (the surfaces of an OFF file are read too)")
     shared.printed_arguments(parser, "rule", "star, step3, step5, step7, step9, step10")
     inside_corners = (
-        "delete points on inside corners first, by the rule any (valid if no point is on more than three planes), two "
-        "or concave (always valid)"
+        "before the search, delete points on inside corners (concave edges): all of them with the rule any, which is "
+        "valid if no point is on more than three planes, or fewer with the rules two and concave, which are always "
+        "valid"
     )
     add(parser, {"--inside-corners RULE": inside_corners}, choices=("any", "two", "concave"))
     tables = {
-        "--trace": "print how often each edge has been used after each loop",
+        "--trace": "after each loop of edges, print how often each edge has been used",
         "--all": "print all tables (default: only a summary for more than 50 points)",
     }
     add(parser, tables)
@@ -109,12 +116,12 @@ def hidden_line(parser: ArgumentParser) -> None:
     tables = {
         "--hidden": "draw hidden lines too, dashed",
         "--tables": "print the contours, the paper's tables PL, LP and d for each pair of overlapping contours, and "
-        "the indices of hidden segments",
+        "for each hidden segment the crossings at which it becomes hidden or visible",
     }
     add(parser, tables)
     without = (
-        "omit these corrections of the paper's method (enclosed, touching, ends), or the paper's step ghosts "
-        "(default: omit nothing)"
+        "omit these corrections of the paper's method (enclosed, touching, ends), or the step of the paper that "
+        "removes lines within one object (ghosts) (default: omit nothing)"
     )
     add(parser, {"--without CORRECTION,...": without}, default="")
     shared.title_argument(parser, "the scene's title")

@@ -23,11 +23,11 @@ def voxel_hull(parser: ArgumentParser) -> None:
         "--vertices": "find the hull of the corners of the voxels (default)",
     }
     add(parser.add_mutually_exclusive_group(), which)
-    corners = "test this many neighbours to find the local corners (default: 26)"
+    corners = "find the local corners, the possible vertices of the hull, by testing this many neighbours (default: 26)"
     add(parser, {"--corners": corners}, type=int, choices=(6, 26))
     order = (
-        "insert the local corners one by one, in the paper's order or in a faster one, and count triangles "
-        "(default: build only the cell list of the final hull; with --coplanar: raster)"
+        "insert the local corners one by one, in the paper's order (raster) or in a random one, which is faster "
+        "(shuffled), and count triangles (default: build only the cell list of the final hull; with --coplanar: raster)"
     )
     add(parser, {"--order": order}, choices=("raster", "shuffled"))
     coplanar = "treat a face coplanar with the inserted point as visible or invisible (default: visible)"
@@ -35,7 +35,7 @@ def voxel_hull(parser: ArgumentParser) -> None:
     results = {
         "--straight": "for --cells and -o: also merge edges that lie on one line",
         "--cells": "print the cell list: vertices, edges and faces",
-        "--fill": "fill the hull of the centres; -o writes its voxels",
+        "--fill": "find all voxels whose centres lie in the hull of the solid's voxel centres; -o writes them",
         "--each-label": "print a table with the volume, hull, area, solidity and convex deficiency of each label, or "
         "of the labels given by --label; with --fill, count voxels",
     }
@@ -76,8 +76,9 @@ def _volume_arguments(parser: ArgumentParser) -> None:
     """Add the volume, the options for properties that its file does not state, and the options that select voxels."""
     volume = (
         "NRRD, NPY, NPZ or a raw array; NIfTI (.nii, .nii.gz), MetaImage (.mha, .mhd), TIFF, DICOM (.dcm, or a "
-        "folder with a series), read by SimpleITK (extra volumes); CSV voxels x,y,z; or ball:32, ball:32:vertex, "
-        "half-ball:18"
+        "folder with a series), if hull1620[volumes] is installed; CSV with a voxel x,y,z on each line; or a ball by "
+        "name: ball:32 has the diameter 32 and its centre in a voxel, ball:32:vertex at a corner; half-ball:18 "
+        "is half a ball"
     )
     add(parser, {"volume VOLUME": volume}, type=InputFile)
     label = "select the voxels with the value N; may be repeated (default: all values except 0)"

@@ -225,8 +225,9 @@ def _advice(surface: FileMesh, dent: tuple[Fraction, int, int, int, int], readin
     square, order, neighbour, a, b = dent
     return (
         f"not convex: between faces {order + 1} and {neighbour + 1} the edge of vertices {_edge_name(surface, a, b)}, "
-        f"is reflex by {root_text(square)}; divide the solid along the plane of face {order + 1}, take its hull "
-        f"({reading.as_hull}), or, if the cause is rounding, merge faces within a distance ({reading.as_within})"
+        f"is reflex: face {neighbour + 1} rises {root_text(square)} above the plane of face {order + 1}; divide the "
+        f"solid along this plane, take its hull ({reading.as_hull}), or, if the cause is rounding, merge faces "
+        f"within a distance ({reading.as_within})"
     )
 
 
@@ -258,7 +259,7 @@ def _flaws(closed: _Closed, hull: Hull, polyhedron: Polyhedron, reading: Reading
         if off:
             far = root_text(Fraction(off * off, dot(normal, normal) * closed.scale**2))
             advice = f"{reading.as_within} merges faces within the distance E"
-            yield f"face {order + 1} is not plane: a vertex is {far} off its plane; {advice}"
+            yield f"face {order + 1} is not plane: a vertex is {far} away from its plane; {advice}"
         a, b, c = lowest(normal)
         d = Fraction(-dot((a, b, c), points[face[0]]), closed.scale)
         if (a * d.denominator, b * d.denominator, c * d.denominator, d.numerator) not in planes:

@@ -68,7 +68,7 @@ def test_a_disabled_numba_is_reported(monkeypatch) -> None:
     """With NUMBA_DISABLE_JIT, Python would compute with NumPy's eight-bit codes, whose sums overflow."""
     numba = pytest.importorskip("numba")
     monkeypatch.setattr(numba.config, "DISABLE_JIT", 1)
-    assert "turned off by NUMBA_DISABLE_JIT" in note_without_engine(monkeypatch)
+    assert "NUMBA_DISABLE_JIT turns compiled code off" in note_without_engine(monkeypatch)
 
 
 @pytest.mark.parametrize(
@@ -192,7 +192,10 @@ def test_compiling_is_reported_on_a_terminal_but_loading_is_not(tmp_path, cache_
         imported(tmp_path).ready(5)
         line, _, wiped = file.getvalue().partition("\r")
         assert bool(line) == written
-        assert (line, wiped) in (("", ""), ("compiling entry, once: some seconds", " " * len(line) + "\r"))
+        assert (line, wiped) in (
+            ("", ""),
+            ("compiling entry; this takes some seconds, but only once", " " * len(line) + "\r"),
+        )
 
 
 SCRIPT = """

@@ -90,7 +90,7 @@ def test_columns(line: str, column: int) -> None:
 
 def test_messages_follow_the_order_of_cards() -> None:
     lines = ["DO 5 I=1,3", "DO 6 J=1,3", "5 X=1.", "6 Y=1.", "END"]
-    assert any("must be inside the range that ends with 5" in d.message and d.card == 2 for d in errors(*lines))
+    assert any("must end inside the DO that ends with 5" in d.message and d.card == 2 for d in errors(*lines))
     found = errors("GO TO 7", "X=", "I=A+1", "Y=Z(3)", "END")
     assert [d.card for d in found] == [2, 3, 4]  # where a card does not parse, jumps are not judged
     assert [d.card for d in errors("GO TO 7", "I=A+1", "END")] == [1, 2]

@@ -16,7 +16,7 @@ def warnings(*lines: str) -> list[tuple[int, str]]:
 
 
 def test_jumps_into_a_do_are_warnings() -> None:
-    jump = "a jump to 4, into the range of the DO on card 1; the DO continues with the old value of I"
+    jump = "this jump to 4 enters the range of the DO on card 1; the DO continues with the old value of I"
     assert warnings(*LOOP, "GO TO 4") == [(6, jump)]
     # KNOWN-FAULTS 8 (to 184) and 9 (to 138).  Program 3 jumps to 133, which leaves its DO at once.
     reported = [translate(deck(name, ()))[1] for name in ("program1", "program2", "program3")]
@@ -36,7 +36,7 @@ def test_jumps_into_a_do_are_warnings() -> None:
     ids=["IF", "computed GO TO", "sense switch", "an outer DO", "within the range", "a way out of the range"],
 )
 def test_a_jump_into_a_do_is_reported_if_the_end_of_the_do_can_be_reached(lines: list[str], cards: list[int]) -> None:
-    assert [card for card, message in warnings(*lines) if "a jump to" in message] == cards
+    assert [card for card, message in warnings(*lines) if "this jump to" in message] == cards
 
 
 @pytest.mark.parametrize(

@@ -58,17 +58,17 @@ def test_every_name_takes_one_field() -> None:
 @pytest.mark.parametrize(
     ("statement", "where"),
     [
-        ("X(I)=1.", "X(4) is outside X(3)"),
-        ("X(J)=1.", "X(0) is outside X(3)"),
-        ("A=1.+X(I)", "X(4) is outside X(3)"),
-        ("A=X(I+1)", "X(5) is outside X(3)"),
-        ("A=X(J)", "X(0) is outside X(3)"),
-        ("A=-X(I)", "X(4) is outside X(3)"),
-        ("X(5)=1.", "X(5) is outside X(3)"),
-        ("M(I,1)=1", "M(4,1) is outside M(2,2)"),
-        ("M(1,I)=1", "M(1,4) is outside M(2,2)"),
-        ("K=M(J,1)", "M(0,1) is outside M(2,2)"),
-        ("K=M(3,1)", "M(3,1) is outside M(2,2)"),
+        ("X(I)=1.", "X(4) is outside its DIMENSION X(3)"),
+        ("X(J)=1.", "X(0) is outside its DIMENSION X(3)"),
+        ("A=1.+X(I)", "X(4) is outside its DIMENSION X(3)"),
+        ("A=X(I+1)", "X(5) is outside its DIMENSION X(3)"),
+        ("A=X(J)", "X(0) is outside its DIMENSION X(3)"),
+        ("A=-X(I)", "X(4) is outside its DIMENSION X(3)"),
+        ("X(5)=1.", "X(5) is outside its DIMENSION X(3)"),
+        ("M(I,1)=1", "M(4,1) is outside its DIMENSION M(2,2)"),
+        ("M(1,I)=1", "M(1,4) is outside its DIMENSION M(2,2)"),
+        ("K=M(J,1)", "M(0,1) is outside its DIMENSION M(2,2)"),
+        ("K=M(3,1)", "M(3,1) is outside its DIMENSION M(2,2)"),
     ],
 )
 def test_strict_bounds(statement: str, where: str) -> None:
@@ -78,7 +78,7 @@ def test_strict_bounds(statement: str, where: str) -> None:
 
 def test_strict_bounds_in_lists_and_beyond_the_next_element() -> None:
     result = run(*NEIGHBOURS, "READ 1,X(I)", "1 FORMAT(E14.8)", "END", data=["1."])
-    assert result.ending.message == "deck.f: card 4: X(4) is outside X(3), in READ 1,X(I)"
+    assert result.ending.message == "deck.f: card 4: X(4) is outside its DIMENSION X(3), in READ 1,X(I)"
     assert run("DIMENSION X(3)", "I=3", "A=X(I+2)", "END").ending.kind == "bounds"
 
 

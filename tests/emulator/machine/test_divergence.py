@@ -97,7 +97,7 @@ def test_losses_and_earlier_ends_of_loops_are_counted() -> None:
 def test_decisions_include_joined_branches_and_computed_go_tos() -> None:
     divergence = compared("A=1./3.", "IF(A*3.-1.)10,20,10", "10 STOP", "20 K=2", "END")
     assert divergence.decisions == 1
-    assert divergence.apart == "the branches do not join again"
+    assert divergence.apart == "the two runs took different branches, which do not join again"
     # Each of nine thirds takes another branch than the exact one, and all join at 30.
     lines = ["A=1./3.", "DO 30 I=1,9", "IF(A*3.-1.)10,30,10", "10 K=1", "30 CONTINUE", "END"]
     divergence = compared(*lines)

@@ -23,7 +23,7 @@ def compared(*lines: str, against: str = "exact") -> Divergence:
 def test_a_run_that_ends_for_lack_of_cards_names_the_read_and_its_card(cards: list[str], count: str) -> None:
     result = Machine(READS, deck_from_lines("d", cards), Options(hopper="any")).run()
     place = "because the hopper was empty at the READ of statement 5 (card 1)"
-    assert list(notes(READS, result)) == [f"note: deck.f: the run ended after {count}, {place}"]
+    assert list(notes(READS, result)) == [f"note: deck.f: the run ended after reading {count}, {place}"]
     assert result.ending.normal
 
 

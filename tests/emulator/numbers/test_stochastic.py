@@ -197,7 +197,7 @@ def test_port_calculates_with_stochastic_numbers(name: str) -> None:
 @pytest.mark.parametrize(
     ("name", "message"),
     [
-        ("stochastic:8", "expected stochastic:P:SEED or stochastic:BITSb:SEED"),
+        ("stochastic:8", "expected stochastic:P:SEED for P decimal digits, or stochastic:BITSb:SEED for BITS bits"),
         ("stochastic:8:1:up", "only :proportional may follow"),
         ("stochastic:8:1:", "only :proportional may follow"),
         ("stochastic:1:1", "the number of digits must be 2 to 28"),

@@ -25,11 +25,15 @@ GOOD_POINT = "+.10000000E+01+.20000000E+01+.30000000E+01"
 BAD_DECKS = [
     ("empty", "", "the deck is empty"),
     ("blank", "\n\n", "only blank cards"),
-    ("no-number", points("XX", GOOD_POINT), "card 1, column 1: N, in columns 1-2, is 'XX', which is not a number"),
+    (
+        "no-number",
+        points("XX", GOOD_POINT),
+        ("card 1, column 1: the number of points, in columns 1-2, is 'XX', which is not a number"),
+    ),
     ("zero", points(" 0", GOOD_POINT), "card 1, column 1: N is 0"),
     ("negative", points("-3", GOOD_POINT), "card 1, column 1: N is -3"),
     ("too-many", points("52", GOOD_POINT), "card 1, column 1: N is 52; the programs accept 1 to 51"),
-    ("blank-n", points("  .", GOOD_POINT).replace(".", ""), "N, in columns 1-2, is blank"),
+    ("blank-n", points("  .", GOOD_POINT).replace(".", ""), "the number of points, in columns 1-2, is blank"),
     ("too-few", points(" 3", GOOD_POINT, GOOD_POINT), "card 3, column 1: the deck ends after 2 of 3 points"),
     (
         "no-coordinate",
@@ -37,7 +41,7 @@ BAD_DECKS = [
         "card 2, column 15: y: '1.2.3' is no",
     ),
     ("lower-case", points(" 1", GOOD_POINT.replace("E", "e")), "card 2, column 11: 'e' is not in the card code"),
-    ("strange", points(" 1", GOOD_POINT + " %"), "card 2, column 44: '%' is the commercial graphic"),
+    ("strange", points(" 1", GOOD_POINT + " %"), "card 2, column 44: write '(' for '%', the character of a commercial"),
     ("tab", points(" 1", "\t1."), "card 2, column 1: character 0x09"),
     ("utf-8", points(" 1", "é"), "card 2, column 1: 'é' is not in the card code"),
     ("too-wide", points(" 1", GOOD_POINT + " " * 40 + "X"), "card 2, column 81: a card has 80 columns"),
@@ -64,7 +68,7 @@ BAD_SOURCES = [
     ("mixed", "      X=A*I\n      END\n", "card 1, column 11: error 5: fixed and floating point are mixed"),
     ("to-format", "      GO TO 1\n    1 FORMAT (I2)\n      END\n", "error: statement 1 is a FORMAT"),
     ("long-name", "      VERTEX=1.\n      END\n", "error 6: the name VERTEX"),
-    ("hash", "      I1#1\n      END\n", "card 1, column 9: '#' is the commercial graphic"),
+    ("hash", "      I1#1\n      END\n", "card 1, column 9: write '=' for '#', the character of a commercial"),
     ("wide", " " * 85 + "X\n", "card 1, column 81"),
 ]
 
@@ -146,7 +150,8 @@ def test_a_run_ends_at_the_empty_hopper_or_an_invalid_field(room: Path, capsys) 
     assert call(capsys, "run", "good.f", "x.deck") == (
         0,
         " .20000000E+01\n .30000000E+01\n",
-        "note: good.f: the run ended after 2 cards, because the hopper was empty at the READ of statement 1 (card 1)\n",
+        "note: good.f: the run ended after reading 2 cards, because the hopper was empty at the READ of statement 1 "
+        "(card 1)\n",
     )
     # Any READ of ``run`` may find the hopper empty. ``hull`` requires complete data sets.
     Path("short.deck").write_text(" 3\n" + GOOD_POINT + "\n", encoding="utf-8")

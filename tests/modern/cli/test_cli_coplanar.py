@@ -36,7 +36,7 @@ def test_flat_input_and_faces_that_are_not_joined_are_noted(capsys) -> None:
     code, _, err = call(capsys, "export", "d.csv", "--format", "off", "--coplanar-within", "0")
     assert code == 0
     assert err.startswith(
-        "note: d.csv: no two of 36 faces lie within 0 of one plane; the next face is joined if E is at least"
+        "note: d.csv: no two of 36 faces lie within 0 of one plane; another face is joined if the distance is at least"
     )
 
 

@@ -81,7 +81,7 @@ def test_points_instead_of_a_deck_name_the_command_that_makes_one(command: list[
     for name, kind in (("points.csv", "a list"), ("points.npy", "NPY")):
         code, _, err = call(capsys, *command, name)
         assert (code, err.count("\n")) == (2, 1)
-        assert err.startswith(f"hull1620: {name}: {kind}")
+        assert err.startswith(f"hull1620: {name}: expected a data deck, found {kind}")
         assert f"hull1620 cards {name} -o points.deck makes a deck of it" in err
 
 
@@ -166,7 +166,8 @@ def test_a_list_of_points_instead_of_a_deck_is_rejected_with_a_remedy(command, t
     Path("mine.csv").write_text("76,-18,-21\n1,2,3\n4,5,7\n", encoding="utf-8")
     code, out, err = call(capsys, *command, "program1", "mine.csv")
     assert (code, out) == (2, "")
-    assert "not a data deck; hull1620 cards mine.csv -o points.deck makes a deck of it" in err
+    assert "expected a data deck, found a list of points (x,y,z on each line, or " in err
+    assert "; hull1620 cards mine.csv -o points.deck makes a deck of it" in err
     assert err.count("\n") == 1
     # A user-defined program may read any data, whatever its name is.
     Path("program1.f").write_text(

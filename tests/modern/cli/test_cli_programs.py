@@ -52,7 +52,7 @@ def test_lower_case_is_reported_once_with_the_option_that_reads_it(command: str,
     code, out, err = call(capsys, command, "small.f", *CALLS[command])
     assert (code, out) == (2, "")
     assert err == (
-        "hull1620: small.f: card 2, column 7: 'r' is not in the card code: letters are capitals; "
+        "hull1620: small.f: card 2, column 7: 'r' is not in the card code, which has only capital letters; "
         "--upcase reads small letters of the program as capitals\n"
     )
 
@@ -70,7 +70,7 @@ def test_upcase_converts_a_program_to_capitals(command: str, capsys) -> None:
 def test_period_programs_run_in_lower_case_and_with_an_operator_file(capsys) -> None:
     code, out, err = call(capsys, "run", str(PERIOD / "pi.f"), str(PERIOD / "pi.deck"), "--upcase")
     assert (code, err.count("\n")) == (0, 1)
-    assert "the run ended after 2 cards, because the hopper was empty" in err
+    assert "the run ended after reading 2 cards, because the hopper was empty" in err
     assert [line[-9:] for line in out.splitlines()] == ["3.1405970", "3.1415928"]
     operator = f"--operator={PERIOD / 'job.operator'}"
     code, out, err = call(capsys, "run", str(PERIOD / "job.f"), str(PERIOD / "job.deck"), operator)
@@ -83,7 +83,7 @@ def test_a_deck_of_data_is_never_read_as_capitals(capsys) -> None:
     Path("one.deck").write_text("1.e0\n", encoding="utf-8")
     code, out, err = call(capsys, "run", "small.f", "one.deck", "--upcase")
     assert (code, out) == (2, "")
-    assert err == "hull1620: one.deck: card 1, column 3: 'e' is not in the card code: letters are capitals\n"
+    assert err == "hull1620: one.deck: card 1, column 3: 'e' is not in the card code, which has only capital letters\n"
 
 
 @pytest.mark.parametrize("number", explanations())

@@ -77,7 +77,7 @@ def test_output_before_an_invalid_card_is_kept_and_blank_cards_are_ignored(room:
     ("arguments", "words"),
     [
         (["hull", "good.deck", "--punch", ""], "a file without a name"),
-        (["hull", "good.deck", "--punch", "a", "--typewriter", "a"], "two outputs have the same file name"),
+        (["hull", "good.deck", "--punch", "a", "--typewriter", "a"], "a: two outputs have this file name"),
         (["reproduce", "3", "--json", "nosuch/file"], "nosuch/file: no such file or directory"),
         (["run", "a\nb.f"], "a\\nb.f: no such file"),
     ],

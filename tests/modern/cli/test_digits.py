@@ -42,7 +42,7 @@ def test_report_says_which_digits_to_believe_and_which_statement_loses_them(prog
     assert rows["1", ".10050000E-03"].endswith("believe 2 digits")
     assert rows["1", ".99899895E+02"].endswith("believe 7 digits")
     assert rows["10", "X=(-B-R)/(2.*A)"].split()[3:6] == ["5.6", "5.6", "2.6"]
-    assert "stochastic runs: 1 decision on floating-point numbers, 0 disputed" in report
+    assert "random rounding: 1 decision on floating-point numbers; the runs disagree on 0 (disputed)" in report
     assert "intervals of 8 digits: every decision is certain" in report
     table = list(csv.DictReader(Path("out.csv").read_text(encoding="utf-8").splitlines()))
     assert {row["part"] for row in table} == {"Printed numbers", "Statements", "Input cards"}
@@ -69,7 +69,7 @@ def test_unknown_and_disputed_decisions_are_reported(program: Path, capsys) -> N
     report = " ".join(capsys.readouterr().out.split())
     decision = "card 3, IF(B)10,20,20, execution 1: -1E-7 instead of 0"
     assert f"first decision that exact takes differently: {decision}" in report
-    assert "stochastic runs: 1 decision on floating-point numbers, 1 disputed" in report
+    assert "random rounding: 1 decision on floating-point numbers; the runs disagree on 1 (disputed)" in report
     assert "intervals of 8 digits: third.f: card 3: the sign of [-1E-8, 1E-7] is unknown" in report
 
 
@@ -101,7 +101,8 @@ def test_listed_digits_follow_the_runs_of_the_arithmetic(program: Path, capsys) 
     main(["digits", name])
     assert "A=2.9/3." in capsys.readouterr().out
     main(["digits", "my.f", "my.deck", "--arithmetic", "stochastic:8:1-3"])
-    assert "3 stochastic runs in step (stochastic:8:1-3)" in " ".join(capsys.readouterr().out.split())
+    heading = "3 runs with random rounding (stochastic:8:1-3)"
+    assert heading in " ".join(capsys.readouterr().out.split())
     assert main(["listing", "my.f", "my.deck", "--digits"]) == 0
     listing = capsys.readouterr().out
     assert next(line for line in listing.splitlines() if "X=(-B-R)" in line).split()[3:5] == ["5.6", "2.6"]

@@ -105,7 +105,7 @@ def test_an_epsilon_makes_three_decimals_agree(tmp_path: Path, capsys) -> None:
     absolute, scaled = statuses(".01"), statuses("rel:1e-9")
     assert absolute.pop("listing") == scaled.pop("listing") == ("DATA NOT ACCEPTABLE", False)
     assert set(absolute.values()) == {("determined", True)}
-    assert scaled.pop("listing + epsilon + corrected")[0] == "not run: a card holds an absolute e, not rel:E"
+    assert scaled.pop("listing + epsilon + corrected")[0] == "not run: a card cannot hold a scaled tolerance, rel:E"
     assert set(scaled.values()) == {("determined", True)}
     capsys.readouterr()
 

@@ -146,7 +146,10 @@ def test_command_writes_one_picture_or_one_for_each_card(deck: Path, capsys) -> 
             "--output: '%d-%d.svg' has no place for a number; write a name such as 'card-%03d.svg'",
         ),
         (["my.deck", "-o", "no/%d.svg"], "no/%d.svg: no such file or directory"),
-        (["small.f", "-o", "%d.svg"], "small.f: card 2, column 4: 'x' is not in the card code: letters are capitals"),
+        (
+            ["small.f", "-o", "%d.svg"],
+            ("small.f: card 2, column 4: 'x' is not in the card code, which has only capital letters"),
+        ),
         (["none.deck"], "none.deck: no such file or directory"),
     ],
 )

@@ -131,7 +131,12 @@ BAD = [
     ("long", "1,2," + "9" * 5000 + "\n", "a.csv", "a.csv: line 1, field 3: 5000 digits; at most 4000 are read"),
     ("exponent", "1,2,1e99999\n", "a.csv", "a.csv: line 1, field 3: the exponent of '1e99999' is not within"),
     ("wide-field", "1,2," + "a" * 200000 + "\n", "a.csv", "a.csv: line 1, column 1: field larger than field limit"),
-    ("deck-n", "XX\n" + CARD, "a.deck", "a.deck: card 1, column 1: N, in columns 1-2, is 'XX', which is not a number"),
+    (
+        "deck-n",
+        "XX\n" + CARD,
+        "a.deck",
+        "a.deck: card 1, column 1: the number of points, in columns 1-2, is 'XX', which is not a number",
+    ),
     ("deck-short", " 3\n" + CARD, "a", "a: card 2, column 1: the deck ends after 1 of 3 points"),
     ("deck-number", " 1\n+.10000000E+01  1.2.3\n", "a", "a: card 2, column 15: y: '1.2.3' is not a number"),
     ("deck-range", " 1\n.10000000E+100\n", "a", "a: card 2, column 1: x: "),

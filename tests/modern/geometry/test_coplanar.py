@@ -57,9 +57,8 @@ def test_a_distance_of_zero_joins_nothing() -> None:
     found, joined = coplanar.coplanar(hull, 0)
     assert joined is not None
     assert (found.faces, found.vertices, joined.square) == (hull.faces, hull.vertices, 0)
-    assert "no two of 36 faces lie within 0 of one plane; the next face is joined if E is " in coplanar.join_summary(
-        joined
-    )
+    summary = "no two of 36 faces lie within 0 of one plane; another face is joined if the distance is "
+    assert summary in coplanar.join_summary(joined)
 
 
 @settings(deadline=None, max_examples=40)
@@ -129,8 +128,8 @@ def test_joined_faces_leave_points_out_and_are_written_in_every_format() -> None
     assert sorted(index for face in found.faces for index in face.on) == [8, 9, 10]
     assert len(coplanar.joined_mesh(mesh(exact([*cube, *bumps])), joined).points) == 8
     # The largest triangle on top runs up to the bump in the middle, and its plane on to twice that height.
-    words = "a vertex lies at most 0.002 from its plane; 3 vertices inside joined faces are left out"
-    assert coplanar.join_summary(joined).startswith(f"14 faces are joined into 6 within 0.01; {words}; the next")
+    words = "a vertex lies at most 0.002 from the plane of its joined face; 3 vertices inside joined faces are left out"
+    assert coplanar.join_summary(joined).startswith(f"14 faces are joined into 6 within 0.01; {words}; another")
     found, _ = read(dodecahedron(), "1e-9")
     sizes = [line.split()[0] for line in export_text(found, "off").splitlines()[22:]]
     assert sizes == ["5"] * 12

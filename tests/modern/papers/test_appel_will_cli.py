@@ -79,7 +79,7 @@ def test_trace_fits_the_use_counts_to_the_width_of_the_terminal(folder: Path, ca
         first = [row for row in table[: table.index("LUP(2,N)  -1 3 -9 -5")] if "IUC" in row]
         counts = [count for row in first for count in row.split()[1:]]
         assert counts == list("110101000000")
-        assert "  type 1, SP 2, MP 6" in table
+        assert "  type 1, start SP 2, match MP 6" in table
 
 
 def test_literal_lists_the_false_edges_of_the_star_test(folder: Path, capsys) -> None:
@@ -89,7 +89,10 @@ def test_literal_lists_the_false_edges_of_the_star_test(folder: Path, capsys) ->
     assert out.splitlines()[-1].startswith("no hull: ")
     assert "Input surfaces" not in out
     code, out, err = call(capsys, "appel-will", "fig4.off", "--printed", "step3,step5,step7,step9,step10")
-    assert (code, err) == (1, "note: used as printed: step3, step5, step7, step9, step10\n")
+    assert (code, err) == (
+        1,
+        ("note: these rules are applied as the paper prints them: step3, step5, step7, step9, step10\n"),
+    )
     assert "lines are not edges of the hull" not in out
     assert out.splitlines()[-1] == "no hull: the loop begun with lines 3 and 1 does not return to its start"
     code, out, _ = call(capsys, "appel-will", "fig4.off", "--printed", "star")
@@ -101,18 +104,18 @@ def test_step_3_as_printed_reverses_a_loop(folder: Path, capsys) -> None:
     Path("fig14.csv").write_text("0,0,4\n8,0,4\n4,8,4\n1,-2,0\n9,14,0\n17,-2,0\n", encoding="utf-8")
     _, preferred, _ = call(capsys, "appel-will", "fig14.csv")
     code, as_printed, err = call(capsys, "appel-will", "fig14.csv", "--printed", "step3")
-    assert (code, err) == (0, "note: used as printed: step3\n")
+    assert (code, err) == (0, "note: these rules are applied as the paper prints them: step3\n")
     assert "LUP(3,N)  2 6 -7 -3" in preferred
     assert "LUP(3,N)  -2 3 7 -6" in as_printed
 
 
 def test_rule_any_reports_whether_its_condition_is_met(folder: Path, capsys) -> None:
     _, out, _ = call(capsys, "appel-will", "fig4.off", "--inside-corners", "any")
-    assert "deleted by rule any before any projection: 3 4" in out
+    assert "points deleted before the first projection by the rule any: 3 4" in out
     assert "28 projections" in out
-    assert "valid for the input surfaces" in out
+    assert "  it holds for the input surfaces" in out
     _, out, _ = call(capsys, "appel-will", "crown.off", "--inside-corners", "any")
-    assert "NOT valid at 9: the hull may be wrong" in out
+    assert "it does NOT hold at 9: the hull may be wrong" in out
     _, out, _ = call(capsys, "appel-will", "crown.off", "--inside-corners", "two")
     assert "NOT" not in out
     assert "a polyhedron of 5 points" in out

@@ -221,7 +221,7 @@ def test_more_than_50_points_are_summarised(folder: Path, capsys) -> None:
     assert lines[0] == "many.csv: 70 points"
     assert lines[2].startswith("convex edge list: ")
     assert lines[3].startswith("loop table: ")
-    assert lines[3].endswith(" of 3 lines)")
+    assert lines[3].endswith(" with 3 lines)")
     assert lines[4] == "for all tables add --all"
     everything = call(capsys, "appel-will", "many.csv", "--all")[1]
     edges = int(lines[2].split()[3])

@@ -124,9 +124,9 @@ def test_the_message_names_the_reflex_edge_and_the_remedies() -> None:
     with pytest.raises(SceneError) as caught:
         read_mesh(points, ELL_FACES)
     assert str(caught.value) == (
-        "f: not convex: between faces 5 and 6 the edge of vertices 4 and 10, (1, 1, 0) and (1, 1, 1), is reflex by 2; "
-        "divide the solid along the plane of face 5, take its hull (hull = true), or, if the cause is rounding, merge "
-        'faces within a distance (coplanar_within = "E")'
+        "f: not convex: between faces 5 and 6 the edge of vertices 4 and 10, (1, 1, 0) and (1, 1, 1), is reflex: "
+        "face 6 rises 2 above the plane of face 5; divide the solid along this plane, take its hull (hull = true), or, "
+        'if the cause is rounding, merge faces within a distance (coplanar_within = "E")'
     )
     result = read_mesh(points, ELL_FACES, Reading(hull=True))
     assert result.notes == ("f: not convex, replaced by its hull",)
@@ -135,7 +135,9 @@ def test_the_message_names_the_reflex_edge_and_the_remedies() -> None:
 
 def test_deviations_beyond_the_distance_are_rejected() -> None:
     points = [(x, y, z) for z in (0, 1) for x, y in ELL]
-    with pytest.raises(SceneError, match=r"between faces 5 and 6 the edge of vertices 4 and 10, .* is reflex by 2; "):
+    with pytest.raises(
+        SceneError, match=r"between faces 5 and 6 the edge of vertices 4 and 10, .* is reflex: face 6 rises 2 "
+    ):
         read_mesh(points, ELL_FACES, Reading(within=Fraction(1, 100)))
     walls = [(k, k + 5, (k + 1) % 5 + 5, (k + 1) % 5) for k in range(5)]
     star = [(x, y, z) for z in (0, 9) for x, y in STAR]
@@ -155,7 +157,7 @@ def test_the_message_names_the_deepest_reflex_edge(seed: int) -> None:
     points = [(x, y, z) for z in (0, 5) for x, y in ring]
     faces = [tuple(range(n))[::-1], tuple(range(n, 2 * n))]
     faces += [(k, (k + 1) % n, (k + 1) % n + n, k + n) for k in range(n)]
-    with pytest.raises(SceneError, match="reflex by") as caught:
+    with pytest.raises(SceneError, match="is reflex: ") as caught:
         read_mesh(points, faces)
     corner = 2 * depths.index(max(depths)) + 1
     assert f"the edge of vertices {corner + 1} and {corner + 1 + n}," in str(caught.value)
@@ -169,7 +171,7 @@ def test_rounded_faces_are_rejected_with_their_deviation_and_merged_within_a_dis
     text = export_text(twelve_faces(), "off").encode()
     with pytest.raises(
         SceneError,
-        match=r"^d: face \d+ is not plane: a vertex is \d\.\d+e-16 off its plane; coplanar_within = \"E\" merges",
+        match=r"^d: face \d+ is not plane: a vertex is \d\.\d+e-16 away from its plane; coplanar_within = \"E\" merges",
     ):
         bodies(parse_mesh(text, "d.off"), Reading(), "d")
     result = bodies(parse_mesh(text, "d.off"), Reading(within=Fraction(1, 10**9)), "d")
@@ -217,7 +219,7 @@ def test_the_outline_is_complete_when_a_merged_face_is_edge_on() -> None:
         (
             [*CUBE[:7], (0, 1, "9/8")],
             CUBE_FACES,
-            "f: face 2 is not plane: a vertex is 0.0623 off its plane; coplanar_within",
+            "f: face 2 is not plane: a vertex is 0.0623 away from its plane; coplanar_within",
         ),
     ],
 )

@@ -36,12 +36,12 @@ def test_tables_print_every_stage_in_the_coordinates_of_the_input(stair: str, ca
         "  1 |  0  0\n"
         "  0 | -1  0\n"
         "       5  6\n"
-        "floor: 4 of 5 columns are in the reduced set:\n"
+        "floor: 4 of 5 columns are in the reduced set (possible vertices):\n"
         "  (5,0,-1) (5,1,-1) (6,0,-1) (6,2,0)\n"
         "floor: 2 faces, outward normal and vertices:\n"
         "  (0,0,-1): (6,0,-1) (5,0,-1) (5,1,-1)\n"
         "  (1,1,-2): (6,2,0) (6,0,-1) (5,1,-1)\n"
-        "ceiling: 4 of 5 columns are in the reduced set:\n"
+        "ceiling: 4 of 5 columns are in the reduced set (possible vertices):\n"
         "  (5,0,-1) (5,1,0) (6,0,0) (6,2,0)\n"
         "ceiling: 2 faces, outward normal and vertices:\n"
         "  (-1,-1,1): (5,1,0) (5,0,-1) (6,0,0)\n"
@@ -55,8 +55,8 @@ def test_the_default_output_is_a_summary(stair: str, capsys) -> None:
     assert (code, err) == (0, "")
     assert out == (
         "stair.csv: 7 voxels, an octree of 25 nodes over a cube of side 4\n"
-        "floor: 4 of 5 columns are in the reduced set; 2 faces\n"
-        "ceiling: 4 of 5 columns are in the reduced set; 2 faces\n"
+        "floor: 4 of 5 columns are in the reduced set (possible vertices); 2 faces\n"
+        "ceiling: 4 of 5 columns are in the reduced set (possible vertices); 2 faces\n"
         "digital hull: 7 voxels, an octree of 25 nodes\n"
     )
     assert call(capsys, "octree-hull", "ball:16")[1].count("\n") == 4
@@ -99,8 +99,10 @@ def test_notes_offsets_and_components_are_reported(stair: str, capsys) -> None:
     Path("apart.csv").write_text("0,0\n4,2\n", encoding="utf-8")
     code, out, _ = call(capsys, "octree-hull", "apart.csv", "--tables")
     assert code == 0
-    assert "over one line; vertices of its envelope:\n  (0,0,0) (4,2,0)\n" in out
-    assert out.endswith("digital points of the hull of 2 6-connected parts: 3 voxels, an octree of 49 nodes\n")
+    assert "its columns lie on one line; vertices of its envelope:\n  (0,0,0) (4,2,0)\n" in out
+    assert out.endswith(
+        "digital points of the hull of 2 parts that no voxel faces connect: 3 voxels, an octree of 49 nodes\n"
+    )
 
 
 def test_faces_run_counterclockwise_seen_from_outside(stair: str, capsys) -> None:
@@ -135,7 +137,7 @@ def test_literal_reports_the_difference_and_gives_exit_code_1(stair: str, capsys
         "digital hull: 8 voxels, an octree of 25 nodes\n"
         "compared with the corrected algorithm: 0 voxels missing, 1 extra\n"
     )
-    assert f"note: used as printed: {', '.join(NAMES)}\n" in err
+    assert f"note: these statements are applied as the paper prints them: {', '.join(NAMES)}\n" in err
     assert "note: floor: no point found for 4 of 6 edges" in err
 
 
@@ -144,7 +146,7 @@ def test_printed_statements_that_change_nothing_give_exit_code_0(stair: str, cap
     code, out, err = call(capsys, "octree-hull", "row.csv", "--printed", "marks, start")
     assert code == 0
     assert out.endswith("compared with the corrected algorithm: 0 voxels missing, 0 extra\n")
-    assert err == "note: used as printed: start, marks\n"
+    assert err == "note: these statements are applied as the paper prints them: start, marks\n"
 
 
 @pytest.mark.parametrize("command", [["octree-hull"], ["voxel-hull", "--fill"]])

@@ -24,7 +24,7 @@ pytestmark = pytest.mark.skipif(
 )
 DETERMINED = "CONVEX HULL HAS BEEN DETERMINED"
 ERROR = "ERROR IN PROGRAM"
-NO_ROOM = "The run has stopped: program3.f: card 89: MM(99) is outside MM(98)"
+NO_ROOM = "The run has stopped: program3.f: card 89: MM(99) is outside its DIMENSION MM(98)"
 # By the deck of the link: the program that ends the run, and a line that it then shows.
 ENDS = {
     **{f"example{n}": ("program1_examples.f", "CONVEX HULL") for n in (1, 2, 3)},
@@ -38,7 +38,10 @@ ENDS = {
     "counterexamples/z_in_39": ("program3.f", DETERMINED),
     "grounds/lastpair": ("program3.f", ERROR),
     "grounds/lastplane": ("program3.f", "this run never ends: it repeats the same 230,000 statements"),
-    "grounds/polygon51": ("program2.f", "The run has stopped: program2.f: card 116: A(52) is outside A(51)"),
+    "grounds/polygon51": (
+        "program2.f",
+        "The run has stopped: program2.f: card 116: A(52) is outside its DIMENSION A(51)",
+    ),
     "grounds/renumber": ("program2.f", DETERMINED),
     "fibon.deck": ("fibon.f", "RATIO  1.6180339"),
     "job.deck": ("job.f", "TYPE P,Q,R THEN A,B"),

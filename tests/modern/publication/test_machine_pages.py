@@ -40,7 +40,7 @@ def test_regions_equal_those_of_the_storage_map(name: str) -> None:
     data = re.search(r"data: (\d+) positions, from (\d+) down to (\d+)", printed)
     assert data is not None
     assert storage.positions(ARRAY) + storage.positions(SINGLE) == int(data[1])
-    free = re.search(r"free between them: ~(\d+)", printed)
+    free = re.search(r"free between program and data: ~(\d+)", printed)
     assert free is not None
     assert storage.positions(FREE) == int(free[1])
     assert storage.positions(PROGRAM) == code_positions(programs.program(name))

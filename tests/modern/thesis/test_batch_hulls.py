@@ -109,7 +109,7 @@ def test_both_engines_report_the_overflow_of_the_plane_table() -> None:
     options = Options(limit=800_000)
     (result,) = both(program, [middle], options)
     assert isinstance(result, Result)
-    assert "MM(99) is outside MM(98)" in result.ending.message
+    assert "MM(99) is outside its DIMENSION MM(98)" in result.ending.message
     assert None not in list(Runner(program, options).runs([packed(middle)]))
     both(program, [middle], replace(options, bounds="core", limit=100_000))
 
