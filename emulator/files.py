@@ -55,7 +55,7 @@ def read_bytes(path: str, name: str = "", limit: int = TEXT_LIMIT) -> bytes:
     except OSError as error:
         raise FileError(f"{name or source_name(path)}: {reason(error)}") from None
     except ValueError:
-        raise FileError(f"{name or quoted(path)}: not a file name") from None
+        raise FileError(f"{name or quoted(path)}: not a valid file name") from None
 
 
 def _is_regular(file: BinaryIO) -> bool:

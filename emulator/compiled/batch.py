@@ -43,7 +43,7 @@ def run_batch(
     try:
         decks = iter(decks)
     except TypeError:
-        raise ArgumentError(f"decks: expected decks, found {type(decks).__name__}") from None
+        raise ArgumentError(f"decks: expected a list of decks, found {type(decks).__name__}") from None
     expect(options, (Options, type(None)), "options")
     options = options or Options()
     runner = _runner(program, options, note)

@@ -139,7 +139,7 @@ def _write_sheets(folder: str) -> int:
             problem = str(error) if isinstance(error, BuildError) else "only a checkout of the project can make PDF"
     readings = sum(len(item.variants) for sheet in all_sheets for item in sheet.items)
     asked = sum(len(sheet.questions) for sheet in all_sheets)
-    print(f"{folder}: {len(all_sheets)} sheets with {readings} silent readings and {asked} open questions")
+    print(f"{folder}: {len(all_sheets)} proof sheets with {readings} silent readings and {asked} open questions")
     print_notes([f"note: no PDF was written: {problem}"] if problem else [])
     return OK
 

@@ -87,9 +87,7 @@ def _compared(
 def _commentary(args: argparse.Namespace) -> tuple[dict[int, list[str]], list[str]]:
     """Return the lines to print above the first card of each block, and the lines that explain the variables."""
     if args.program not in programs.NAMES or args.layers:
-        raise UsageError(
-            f"--commentary: expected a program of the thesis without further layers: {', '.join(programs.NAMES)}"
-        )
+        raise UsageError(f"--commentary: only {', '.join(programs.NAMES)} without --layers have a commentary")
     remarks = commentary(args.program)
     width = min(_width(args.output) or 100, 100)
     above = {

@@ -72,7 +72,7 @@ def read_volume(
     shape, dtype
         The shape and type of a file of raw data, in which x varies fastest.
     threshold
-        The least value of a voxel that belongs to the solid.
+        A number. Voxels with at least this value belong to the solid.
     labels
         The values of voxels that belong to the solid. Without a threshold or labels, these are all values except 0.
     spacing, origin
@@ -159,7 +159,7 @@ def _parsed(data: bytes, source: str, stated: Stated) -> Scan:
     # Without this test, the heading of a mesh would be read as a heading of columns and its counts as a voxel.
     if _is_mesh(data, source):
         raise VolumeError(
-            f"{source}: expected voxels, found a mesh (OFF, OBJ, PLY or STL); hull1620 hull reads its points"
+            f"{source}: expected voxels, found a mesh (OFF, OBJ, PLY or STL); hull1620 export finds its hull"
         )
     return _scan(_listed(text, source))
 

@@ -120,7 +120,7 @@ def gather(dist: Path, rows: Path | None = None) -> Parts:
     files |= {f"benchmark/{name}": text.encode() for name, text in benchmark().items()}
     if rows is not None:
         if not rows.is_dir():
-            raise BuildError(f"{rows}: expected a folder with the rows of studies")
+            raise BuildError(f"{rows}: expected a folder with the results (rows) of studies")
         files |= {f"rows/{name}": data for name, data in _tree(rows)}
     return Parts(files, frozenset(executable))
 
@@ -310,7 +310,7 @@ def main(arguments: Sequence[str]) -> int:
     """Pack the results of all other builds. Return 0, or 2 after a message of one line."""
     parser = ArgumentParser(prog="deposit", description="Pack a deposit for archives.")
     parser.add_argument("out", nargs="?", type=Path, default=DIST, help="output folder (default: dist)")
-    parser.add_argument("--rows", type=Path, help="a folder with rows of studies to include")
+    parser.add_argument("--rows", type=Path, help="a folder with results of studies (rows) to include")
     args = parser.parse_args(arguments)
 
     def summary() -> str:

@@ -236,7 +236,8 @@ def check_plan(plan: Plan) -> None:
         files += -(-cell.samples // cell.chunk)
     if files > MOST_FILES:
         raise PlanError(
-            f"{plan.name}: {plan.samples:,} samples need {files:,} files of rows, at most {MOST_FILES:,}; enlarge chunk"
+            f"{plan.name}: {plan.samples:,} samples would be stored in {files:,} files; expected at most "
+            f"{MOST_FILES:,}: enlarge chunk, the number of samples in a file"
         )
 
 

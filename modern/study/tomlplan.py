@@ -223,5 +223,5 @@ def _cell(raw: Mapping[str, Any], routes: Mapping[str, Route], samples: int, sec
     optional = {"chunk": section.integer(raw, "chunk", CHUNK, 1), "reference": raw.get("reference", "")}
     key = dict(raw.get("key", default_key))
     if not all(isinstance(value, str | int) for value in key.values()):
-        raise section.error("the values in key must be text or integers", "key")
+        raise section.error("the values in the table key must be text or integers", "key")
     return Cell(key, family, parameters, tuple(routes[name] for name in route_names), samples, **optional)

@@ -109,7 +109,8 @@ def in_processes(plan: Plan, chunks: Sequence[Chunk], workers: int) -> Generator
         for child in set(multiprocessing.active_children()) - earlier_children:
             child.terminate()
         if isinstance(reason, BrokenProcessPool):
-            raise PlanError("a worker process died (killed, or out of memory?); --resume continues the study") from None
+            message = "a process of the study died (killed, or out of memory?); --resume continues the study"
+            raise PlanError(message) from None
         raise
     finally:
         # shutdown() raises RuntimeError if Ctrl-C arrived before the pool had started its own thread.

@@ -17,7 +17,7 @@ from emulator.files import read_bytes, read_text, write_text, writing, writing_b
         ("missing", "missing: no such file or directory"),
         (".", ".: is a directory"),
         ("", "a file without a name cannot be read"),
-        ("a\0b", "'a\\x00b': not a file name"),
+        ("a\0b", "'a\\x00b': not a valid file name"),
         ("x" * 5000, "x" * 5000 + ": file name too long"),
     ],
 )

@@ -56,13 +56,13 @@ def parser() -> argparse.ArgumentParser:
         command(
             "chapter6",
             run_chapter6,
-            "run chapter 6, also without each emendation; compare with the committed results",
+            "run chapter 6 with all emendations and without each one; compare with the committed results",
         ),
         command("times", run_times, "measure the simulated time of runs; compare it with the committed results"),
     ):
         committed.add_argument("--write", action="store_true", help="replace the committed results")
-    command("programs", run_programs, "run all programs on the library; compare the output with the emulator's")
-    repeat = command("measure", run_measure, "repeat the stored statements; compare them with the emulator")
+    command("programs", run_programs, "run all programs on the library and on the emulator; compare their output")
+    repeat = command("measure", run_measure, "repeat the stored statements; compare the results with the emulator's")
     repeat.add_argument(
         "--random", type=int, default=0, metavar="N", help="also compare N random statements, N fields and N operations"
     )
@@ -97,7 +97,7 @@ def _committed(path: str, text: str, write: bool) -> int:
     if write:
         write_text(path, text)
     same = read_text(path) == text
-    print(f"{path}: {'as committed' if same else 'different'}")
+    print(f"{path}: {'equal to' if same else 'different from'} the committed results")
     return int(not same)
 
 
@@ -126,14 +126,14 @@ def run_measure(options: argparse.Namespace) -> int:
     deck, vectors = object_deck(), load()
     again = measure([(vector.statement, vector.cards) for vector in vectors], deck)
     changed = sum(not same(first.outcome, second.outcome) for first, second in zip(vectors, again, strict=True))
-    print(f"{len(vectors)} measured statements: {changed} different on the library")
+    print(f"{len(vectors)} stored statements: {changed} have other results on the library now")
     for draw in (at_random, fields_at_random):
         again += measure(list(islice(draw(options.seed), options.random)), deck)
     wrong = [vector for vector in again if not same(emulate(vector.statement, cards=vector.cards), vector.outcome)]
-    print(f"{len(again)} statements: {len(wrong)} different in the emulator")
+    print(f"{len(again)} statements: {len(wrong)} have other results in the emulator than on the library")
     operations = arithmetic.at_random(options.seed, options.random)
     results = list(arithmetic.different(operations, deck)) if operations else []
-    print(f"{len(operations)} operations: {len(results)} different in the emulator")
+    print(f"{len(operations)} operations: {len(results)} have other results in the emulator than on the library")
     for vector in wrong:
         print(vector.line())
     for result in results:
@@ -144,7 +144,7 @@ def run_measure(options: argparse.Namespace) -> int:
 def run_compile(options: argparse.Namespace) -> int:
     """Compare the object code of a source deck with the program in IBM's object deck.  Return 1 if they differ."""
     positions, different, cards = against_deck(compile_deck(read_deck(options.source)), object_deck())
-    print(f"object program: {positions} positions, {different} different; symbol table: {cards} cards different")
+    print(f"object program: {different} of {positions} positions differ; symbol table: {cards} cards differ")
     return int(bool(different or cards))
 
 

@@ -132,7 +132,10 @@ class Terminal(Operator):
     def attend(self, session: Session) -> Iterator[Action]:
         if session is not self._session:
             self._session, self._cards = session, Cards()
-            self._note(f"{session.program.source} is loaded. Ctrl-C or Esc A: ATTN. F1 to F4, or Esc 1 to 4: switches")
+            self._note(
+                f"{session.program.source} is loaded. Ctrl-C, or Esc and A: ATTN, which stops the program before its "
+                "next statement. F1 to F4, or Esc and 1 to 4: turn a sense switch on or off"
+            )
             if self._waits:
                 yield Action("ATTN")
                 return
@@ -160,7 +163,7 @@ class Terminal(Operator):
             if line == ATTENTION:
                 if not self._commands:
                     self._commands = True
-                    self._note("Enter: back to the line. STOP: end the run. ?: help")
+                    self._note("Type a command. Enter: back to the line that ACCEPT reads. STOP: end the run. ?: help")
             elif not self._commands:
                 return Action("ENTER", text=line)
             else:

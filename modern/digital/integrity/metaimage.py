@@ -88,7 +88,7 @@ def _check_data(source: str, path: str, start: int, expected: int, fields: Mappi
     except OSError as error:
         raise VolumeError(f"{source}: {reason(error)}") from None
     except ValueError:
-        raise VolumeError(f"{source}: not a file name") from None
+        raise VolumeError(f"{source}: not a valid file name") from None
 
 
 def _fields(head: bytes, path: str) -> tuple[dict[str, str], int]:

@@ -107,7 +107,7 @@ class Surface:
     def triangles(self) -> CellList:
         """The triangles that result from inserting points one by one. Raise VolumeError if no points were inserted."""
         if self.triangulation is None:
-            raise VolumeError("triangles exist only if points are inserted: set the order, for example to raster")
+            raise VolumeError("triangles exist only if the points are inserted one by one, as with order='raster'")
         return self.triangulation
 
     @property

@@ -32,7 +32,8 @@ def reconstructed(encoding: Economical, of: Of = VERTICES) -> Volume:
     sizes = [max(column) - least + 1 - extra for column, least in zip(columns, (x, y, z), strict=True)]
     if min(sizes) < 1 or np.prod(sizes, dtype=object) > MAX_CELLS:
         raise VolumeError(
-            f"reconstruction: a box of {' x '.join(map(str, sizes))} voxels: expected 1 to {MAX_CELLS} voxels"
+            f"reconstruction: expected a box of 1 to {MAX_CELLS} voxels, found "
+            f"a box of {' x '.join(map(str, sizes))} voxels"
         )
     shifted = tuple((p[0] - x, p[1] - y, p[2] - z) for p in encoding.points)
     cells, corners = expanded(Economical(shifted, encoding.faces)), np.array(shifted)

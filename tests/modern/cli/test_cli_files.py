@@ -78,7 +78,7 @@ def test_unreadable_standard_input_is_reported(capsys, monkeypatch, reader: str)
         ("missing", "missing: no such file or directory"),
         ("folder", "folder: is a directory"),
         ("", "a file without a name cannot be read"),
-        ("a\0b", "'a\\x00b': not a file name"),
+        ("a\0b", "'a\\x00b': not a valid file name"),
     ],
 )
 def test_unreadable_files_are_reported(capsys, reader: str, path: str, message: str) -> None:

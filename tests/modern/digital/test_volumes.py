@@ -250,7 +250,7 @@ def test_invalid_shapes_and_types_are_reported(shape: tuple[int, ...] | None, dt
         ("ball:8:centre", "ball:8:centre: expected ball:DIAMETER"),
         ("missing.npy", "missing.npy: no such file or directory"),
         (".", ".: is a directory"),
-        ("a\0b", "'a\\x00b': not a file name"),
+        ("a\0b", "'a\\x00b': not a valid file name"),
     ],
 )
 def test_invalid_names_are_reported(name: str, message: str) -> None:

@@ -114,7 +114,7 @@ def test_the_command_prints_the_commentary_of_a_listed_program_only(arguments: t
     code, out, err = call(capsys, "listing", "program2", "--commentary", *arguments)
     if arguments:
         assert (code, out, err.count("\n")) == (2, "", 1)
-        assert "--commentary: expected a program of the thesis without further layers" in err
+        assert "--commentary: only program1" in err
     else:
         assert code == 0
         shown = ("102 READ 4", "The first triangle", "   NETC=1", "  262        END", "    NETC  The number")

@@ -207,7 +207,7 @@ CELL = f"{ROUTE}[[cell]]\n"
         (f"{CELL}family = 3", "cell 1: expected family to be text, found 3"),
         (f"{CELL}family = 'thesis'\nroutes = 3", "expected routes to be a list of names, found 3"),
         (f"{CELL}family = 'thesis'\nparameters = 3", "expected parameters to be { name = value }"),
-        (f"{CELL}family = 'thesis'\nkey = {{a = [1]}}", "the values in key must be text or integers"),
+        (f"{CELL}family = 'thesis'\nkey = {{a = [1]}}", "the values in the table key must be text or integers"),
     ],
 )
 def test_invalid_plan_file_gives_a_one_line_error(tmp_path: Path, text: str, message: str) -> None:
@@ -256,7 +256,7 @@ def test_command_line_runs_resumes_and_lists_studies(plan_file: Path, capsys) ->
         (["seventy", "--workers", "-1"], "--workers: expected at least 1, found -1"),
         (["seventy", "--out", ""], "--out: expected a value, found an empty string"),
         (["seventy", "--dask", ""], "--dask: expected a value, found an empty string"),
-        (["seventy", "--samples", "70000000000"], "418,333,334 files of rows"),
+        (["seventy", "--samples", "70000000000"], "418,333,334 files; expected at most"),
         (["seventy", "--workers", "1", "--dask", "tcp://h:1"], "--workers and --dask cannot be combined"),
         (["seventy", "--samples", "70", "--out", "three.toml"], "three.toml: not a directory"),
         (["seventy", "--samples", "70", "--out", "three.toml/in"], "not a directory"),
