@@ -28,14 +28,15 @@ Indented = Callable[[str], Iterable[str]]
 
 _REASON = {CONDITION: "condition", HOLDS: "note", USED: "note"}
 _PAINT_KINDS = {HOLDS: EXACT, CONDITION: ORDER, FAILS: DIFFERENT}
-_PLURAL = {
-    HOLDS: "hold",
-    CONDITION: "with a condition",
-    FAILS: "do not hold",
-    SLIP: "slips",
-    USED: "used",
-    UNTESTABLE: "not testable",
-    REPETITION: "repetitions",
+# The words after the number of rows with a verdict: after 1, and after other numbers.
+_COUNTED = {
+    HOLDS: ("holds", "hold"),
+    CONDITION: ("with a condition", "with a condition"),
+    FAILS: ("does not hold", "do not hold"),
+    SLIP: ("slip", "slips"),
+    USED: ("used", "used"),
+    UNTESTABLE: ("not testable", "not testable"),
+    REPETITION: ("repetition", "repetitions"),
 }
 
 
@@ -97,13 +98,13 @@ def statement_summary(judgements: Sequence[Judged], paint: Paint, indented: Inde
     for document in DOCUMENTS:
         rows = [judged for judged in judgements if judged.statement.document == document]
         kinds = Counter(column(judged.statement) for judged in rows)
-        counted = ", ".join(f"{kinds[kind]} {_PLURAL[kind]}" for kind in COLUMNS if kinds[kind])
+        counted = ", ".join(f"{kinds[kind]} {_COUNTED[kind][kinds[kind] != 1]}" for kind in COLUMNS if kinds[kind])
         yield f"  {document}: {len(rows)}: {counted}"
         graded = grades(rows)
         yield from indented(f"of those that hold: {', '.join(f'{graded[g]} {g}' for g in GRADES if graded[g])}")
         failing = [judged.statement.id for judged in rows if column(judged.statement) == FAILS]
         if failing:
-            yield from indented(f"do not hold: {', '.join(failing)}")
+            yield from indented(f"{_COUNTED[FAILS][len(failing) != 1]}: {', '.join(failing)}")
     for judged in judgements:
         if not judged.agrees:
             message = f"{judged.statement.id}: computed: {judged.computed}: {judged.message}"
