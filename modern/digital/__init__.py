@@ -12,7 +12,8 @@ To add a file format:
 2. Call the reader in ``_parsed`` in ``volumes.py`` for files that begin with the first bytes of the format. If
    SimpleITK reads the format, add the file name extension to ``KINDS`` in ``itk.py`` instead; steps 1 and 2 are then
    complete.
-3. To write the format, add its ending to ``ARRAYS`` and a case to ``write_array``, both in ``volumes.py``.
-4. Test it in ``tests/modern/digital/test_volumes.py``, and damage it in ``test_damaged_volumes.py`` next to it.
-5. Describe it in ``docs/reference/files.md`` and ``docs/how-to/voxels.md``.
+3. To write the format, add its file name extension to ``ARRAYS`` and a case to ``write_array``, both in ``volumes.py``.
+4. Test the reader with valid files in ``tests/modern/digital/test_volumes.py``, and with damaged files in
+   ``test_damaged_volumes.py`` in the same folder.
+5. Describe the format in ``docs/reference/files.md`` and ``docs/how-to/voxels.md``.
 """

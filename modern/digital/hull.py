@@ -1,7 +1,7 @@
 """The digital hull of a volume: all grid points in the convex hull of its voxel centres, computed exactly.
 
-Only the two ends of a column of voxels can be vertices of the hull. The exact hull of these ends has planes with
-integer coefficients, and integers decide whether a voxel on a plane belongs to the digital hull. If the voxels are
+Only the first and the last voxel of a column can be vertices of the hull. The planes of their exact hull have integer
+coefficients, so integer arithmetic decides exactly whether a voxel belongs to the digital hull. If the voxels are
 connected through their faces, the digital hull is the digital convex hull of Yau and Srihari (section 3.3). It is also
 the set of grid points in Kovalevsky and Schulz's polyhedron of voxel centres.
 """
@@ -34,7 +34,7 @@ class DigitalHull:
     Attributes
     ----------
     filled
-        Truth values in the volume's shape and memory order.
+        An array that is True for each voxel of the hull, in the shape and memory order of the volume.
     dimension
         The dimension of the set of voxel centres: 3, 2 if they lie in one plane, 1 on one line, 0 for a single voxel.
     given
@@ -99,7 +99,7 @@ def digital_hull(
         A volume, a SimpleITK image, or an array with two or three axes; every value other than 0 is a voxel.
     fast
         As in :func:`modern.exact_hull.build.exact_hull`: True requires compiled code (numba, the extra ``fast``). The
-        result is the same.
+        hull does not depend on this choice.
     spacing, origin, directions
         The position of an array's voxels, as in :func:`modern.digital.world.world_of`. The position affects the hull's
         ``world`` and ``volume`` but not its voxels.
@@ -126,9 +126,9 @@ def placed(
     origin: Sequence[Any] | None = None,
     directions: Sequence[Sequence[Any]] | None = None,
 ) -> Volume:
-    """Return a volume unchanged, or the volume of the nonzero values of an array, at the given position.
+    """Return a volume unchanged, or the nonzero elements of an array as a volume at the given position.
 
-    A SimpleITK image has its own position.
+    A SimpleITK image states its position itself.
     """
     if hasattr(volume, "GetDirection"):
         return placed(*_of_image(volume))
@@ -177,7 +177,7 @@ def _truth(array: NDArray[Any]) -> Truth:
 
 
 def _hull(solid: Truth, fast: bool | None) -> tuple[int, Truth]:
-    """Return the dimension of the hull, and the volume of the voxels in it."""
+    """Return the dimension of the hull, and an array that is True for each voxel in the hull."""
     points = vertex_candidates(*column_ends(solid))
     try:
         hull = exact_hull(points, fast)

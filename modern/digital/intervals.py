@@ -1,9 +1,8 @@
 """The columns of a volume: their first and last voxels, and the part of each column that lies in a hull.
 
 A column is a line of voxels along the last axis. The hull of a volume is the hull of the ends of its columns. The part
-of a column in the hull is computed exactly: if a plane or a line passes between two grid points, an integer division
-rounds up on the lower side of the hull and down on the upper side. A grid point on the plane or line belongs to the
-hull.
+of a column in the hull is computed exactly: the height at which a face crosses the column is rounded to an integer, up
+on the lower side of the hull and down on the upper side. A grid point on a face belongs to the hull.
 """
 
 from collections.abc import Iterable, Sequence
@@ -46,7 +45,7 @@ def column_ends(volume: Truth) -> tuple[Grid, Grid, Grid, Grid]:
 def vertex_candidates(x: Grid, y: Grid, low: Grid, high: Grid) -> Grid:
     """Return the ends of columns that can be vertices of the hull, shape (n, 3), sorted by x, y and z.
 
-    The columns are given in raster order, as by ``column_ends``.
+    The four arrays are those of ``column_ends``, sorted by x and then y.
     """
     lower = np.stack(reduced(x, y, low), axis=1)
     upper = np.stack(reduced(x, y, -high), axis=1) * (1, 1, -1)
@@ -54,9 +53,10 @@ def vertex_candidates(x: Grid, y: Grid, low: Grid, high: Grid) -> Grid:
 
 
 def reduced(x: Grid, y: Grid, z: Grid) -> tuple[Grid, Grid, Grid]:
-    """Remove points that are no vertices of the hull's lower side: those on or above a chord of their row or column.
+    """Remove points that cannot be vertices of the lower side of a hull.
 
-    The arrays x, y, z hold at most one point for each (x, y), in raster order, and so does the result.
+    These points lie on or above the segment between two other points with the same x, or with the same y. The arrays
+    x, y, z hold at most one point for each (x, y). They are sorted by x and then y, and so are the returned arrays.
     """
     x, y, z = _along(x, y, z)
     order = np.lexsort((x, y))
@@ -66,7 +66,7 @@ def reduced(x: Grid, y: Grid, z: Grid) -> tuple[Grid, Grid, Grid]:
 
 
 def _along(line: Grid, t: Grid, z: Grid) -> tuple[Grid, Grid, Grid]:
-    """Repeatedly remove the points that lie on or above the chord between their neighbours in the same line."""
+    """Repeatedly remove the points on or above the segment between their two neighbours in the same line."""
     removed = np.ones(len(line), dtype=np.bool_)
     while len(line) > 2 and STILL_PAYS * np.count_nonzero(removed) >= len(line):
         before, after = t[1:-1] - t[:-2], t[2:] - t[1:-1]
@@ -89,8 +89,9 @@ def fill(low: Grid, high: Grid, depth: int) -> Truth:
 
 
 def lower_chain(points: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
-    """Return the vertices on the lower side of the hull of points (t, z), which are sorted by distinct t (Andrew's
-    scan).
+    """Return the vertices on the lower side of the hull of points (t, z), by Andrew's scan.
+
+    The points are sorted by t, and no two have the same t.
     """
     chain: list[tuple[int, int]] = []
     for t, z in points:
@@ -108,11 +109,11 @@ BATCH = 1 << 20
 
 
 def below_faces(faces: Iterable[tuple[Grid, Plane]], shape: tuple[int, int]) -> tuple[Grid, Grid]:
-    """Return the lowest and highest grid point of a polyhedron at each position (x, y) of a grid of this shape.
+    """Return two arrays: the lowest and the highest integer z of a polyhedron at each position (x, y) of a grid.
 
     Each face is a pair: its vertices, shape (n, 3), counterclockwise as seen from outside, and the coefficients of its
-    plane, whose value is positive outside. At a position without a grid point of the polyhedron, the z returned as the
-    lowest is greater than the z returned as the highest.
+    plane's equation, whose value is positive outside. If a position has no grid point of the polyhedron, its lowest z
+    is greater than its highest z.
     """
     low = np.ones(shape, dtype=np.int64)
     high = np.zeros(shape, dtype=np.int64)
@@ -163,7 +164,7 @@ def write_heights(grid: Grid, faces: Sequence[tuple[Grid, Plane]], rounded_up: b
 
 
 def _sides(x: Grid, y: Grid, row: Grid, width: int) -> tuple[Grid, Grid]:
-    """Return the least and greatest integer y of each triangle in a row of the grid, x = ``row``."""
+    """Return the least and the greatest integer y of each triangle (x, y) in one row of the grid, at x = ``row``."""
     least, most = np.zeros(len(row), dtype=np.int64), np.full(len(row), width - 1, dtype=np.int64)
     for k in range(3):
         run, rise = x[:, (k + 1) % 3] - x[:, k], y[:, (k + 1) % 3] - y[:, k]
@@ -176,6 +177,6 @@ def _sides(x: Grid, y: Grid, row: Grid, width: int) -> tuple[Grid, Grid]:
 
 
 def _count_up(counts: Grid) -> Grid:
-    """Return one array that has the numbers 0, 1, ..., count - 1 for each of the counts in turn."""
+    """Return the numbers 0, 1, ..., count - 1 for the first count, then for the second one and so on, in one array."""
     ends = np.cumsum(counts)
     return np.arange(int(ends[-1]) if len(ends) else 0) - np.repeat(ends - counts, counts)

@@ -60,10 +60,11 @@ def kind_of(path: str) -> str | None:
 def read_itk(path: str, kind: str, series: str | None = None) -> Scan:
     """Read a file or a folder with SimpleITK into a scan indexed [x, y] or [x, y, z].
 
-    ``series`` identifies one of several DICOM series in a folder. Positions are those of SimpleITK: in LPS, and in
-    millimetres if the format states the unit. A TIFF file has no position. Raise FileError if the file cannot be read.
-    Raise VolumeError if the file is damaged, if SimpleITK is not installed, rejects the file, crashes or exceeds the
-    time limit, if a voxel has several values, or if there are more than ``MAX_CELLS`` voxels.
+    ``series`` identifies one of several DICOM series in a folder. Positions are those of SimpleITK. Their axes point
+    left, posterior and superior (LPS), and their unit is the millimetre if the format states a unit. A TIFF file has no
+    position. Raise FileError if the file cannot be read. Raise VolumeError if the file is damaged, if SimpleITK is not
+    installed, rejects the file, crashes or exceeds the time limit, if a voxel has several values, or if there are more
+    than ``MAX_CELLS`` voxels.
     """
     if kind == SERIES:
         _check_folder(path)
@@ -121,7 +122,7 @@ def _slices(folder: str) -> dict[str, str]:
     """Check every file of a folder. Return the fault of each file by its name, or "" for an intact image.
 
     Raise VolumeError for a damaged DICOM file, because SimpleITK may omit it from its series. A file without pixel data
-    is damaged if its object is of the same DICOM class as an image.
+    counts as damaged if it has the same DICOM class (SOP class) as one of the images.
     """
     remarks, classes = {}, {}
     with os.scandir(folder) as entries:

@@ -108,7 +108,7 @@ def _check(size: Sequence[int], numbers: int, most: int) -> None:
 
 
 def _nifti(reader: Any, notes: list[str]) -> str:
-    """Return "mm" if a NIfTI file states a unit of length, because SimpleITK converts it to millimetres, otherwise "".
+    """Return "mm" if a NIfTI file states a unit of length, otherwise "". SimpleITK converts the unit to millimetres.
 
     Add a note to ``notes`` if the file states no orientation.
     """

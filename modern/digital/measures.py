@@ -52,7 +52,7 @@ def measures(
 
     ``points`` are the vertices of the hull. ``faces`` are cycles of indices of ``points``: all faces of a polyhedron in
     the same orientation, or a polygon as its only face, or no faces for other hulls. ``world`` is the position of the
-    voxels. It must have three steps in a space with three axes.
+    voxels. It must have three steps, each with three coordinates.
     """
     polygons = [tuple(face) for face in faces]
     # Exact physical positions, multiplied by a common scale to make them integers.

@@ -1,4 +1,4 @@
-"""Arrays of values from a file, and the selection of voxels: all values except 0, or those above a threshold, or
+"""Arrays of values from a file, and the selection of voxels: all values except 0, those not below a threshold, or
 labels.
 
 Nothing is rounded: a threshold is a decimal, which is compared with the exact value of each binary floating-point
@@ -52,7 +52,7 @@ class Scan:
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """The user's selection of voxels by value: at least ``threshold``, or one of ``labels``, or all values except 0."""
+    """The user's choice of voxels: all with a value of at least ``threshold``, or in ``labels``, or other than 0."""
 
     threshold: Fraction | None = None
     labels: tuple[int, ...] = ()
@@ -62,8 +62,8 @@ class Choice:
 class Chosen:
     """The voxels selected from a scan, and facts about the scan.
 
-    ``lowest`` and ``highest`` are the least and greatest of all values, or None for an infinity. ``present`` has all
-    labels of the scan if labels were selected. ``truth`` is True if the scan holds truth values.
+    ``lowest`` and ``highest`` are the least and the greatest value of the scan, or None if that value is infinite. If
+    the user chose labels, ``present`` has all labels of the scan. ``truth`` is True if the scan holds truth values.
     """
 
     volume: Volume

@@ -33,7 +33,7 @@ class Volume:
     has the coordinates of the voxel at index 0, 0, 0, so array[i, j, k] is the voxel origin + (i, j, k). ``source`` is
     the name in messages, and ``notes`` are notes of the reader for the user, one line each. ``world`` maps the
     coordinates of voxels to physical coordinates, or is None if their position is unknown. Raise VolumeError for an
-    array of another type or dimension, and for an origin or a world with another number of axes.
+    array of another type or dimension, and if ``origin`` or ``world`` does not have as many axes as the array.
     """
 
     array: Voxels

@@ -146,7 +146,7 @@ def world_of(
 def voxel_volume(world: World | None) -> Fraction:
     """Return the exact volume of a voxel, or the area of a pixel, or 1 if the position is unknown.
 
-    Raise VolumeError for a picture in a space with three axes, because the area of its pixels is irrational.
+    Raise VolumeError for a picture in a space with three axes, because the area of its pixels may be irrational.
     """
     if world is None:
         return Fraction(1)

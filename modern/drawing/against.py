@@ -1,4 +1,4 @@
-"""Draw a hull and a wrong hull of the same points in one picture. Shape and brightness distinguish the differences."""
+"""Draw a hull and a wrong hull of the same points in one picture. The differences have marks of their own."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -73,7 +73,7 @@ def _points(hull: Hull, claim: CardDifferences, at: Mapping[int, Pixel]) -> Iter
 
 
 def _around(corners: Sequence[Pixel]) -> list[Pixel]:
-    """Return coplanar points in the order in which they surround their centre, so that no two sides cross."""
+    """Return the corners of a polygon in order around their centre. In this order no two sides cross."""
     count = len(corners)
     x, y = sum(corner.x for corner in corners), sum(corner.y for corner in corners)
     return sorted(corners, key=lambda corner: atan2(count * corner.y - y, count * corner.x - x))

@@ -1,7 +1,7 @@
 """Draw hulls as lines in parallel projection. Hidden edges are dashed; vertices are numbered as in Butler's programs.
 
 An edge of a convex solid is hidden if and only if both of its faces are turned away from the eye. The sign of formula
-(1) of Nakamae and Nishita (``modern.drawing.visible``) decides this, in fractions of the exact coordinates.
+(1) of Nakamae and Nishita (``modern.drawing.visible``) decides this and is computed exactly, with fractions.
 Floating-point numbers only choose the positions of labels.
 """
 
@@ -56,13 +56,13 @@ def draw_svg(
     ``eye`` is the direction from the hull to the eye. If ``eye`` is None, the program chooses a direction: for a
     polyhedron one of a fixed list, such that no face is edge-on and no two vertices coincide, and for a polygon or a
     segment a perpendicular direction. ``title`` is a line below the picture. ``width`` is 320 to 4000 pixels, by
-    default 640, or 1000 for more than 120 points. Raise ExportError if there is no hull, if the direction is 0,0,0 or
-    shows a polygon or segment edge-on, or if the width is out of range.
+    default 640, or 1000 for more than 120 points. Raise ExportError if there is no hull, if the direction is 0,0,0, if
+    a polygon would appear as a line or a segment as a point, or if the width is out of range.
 
-    Vertices within 2.5 pixels of each other share a number. With more than 120 points only visible vertices are
-    numbered, and with more than 400 vertices no vertex is. Visible faces are shaded. An edge between an edge-on face
-    and a face that is not visible lies on the outline and is drawn as visible. The same hull gives the same text on
-    every machine.
+    Vertices within 2.5 pixels of each other share a label with all their numbers. With more than 120 points only
+    visible vertices are numbered, and with more than 400 vertices no vertex is. Visible faces are shaded. If one face
+    of an edge is edge-on and the other one is not visible, the edge lies on the outline and is drawn as visible. The
+    same hull gives the same text on every machine.
     """
     show = show or Show()
     picture = filter_scene(scene(hull, None if eye is None else [Fraction(number) for number in eye]), show)

@@ -1,8 +1,8 @@
 """Place the numbers of vertices in a picture so that they overlap neither lines nor each other, if there is space.
 
 Every label has a fixed set of candidate positions around its vertex, each with a cost. The cheapest position is chosen
-for each label in turn, repeatedly, until no label moves. Only sums, products and quotients are used, so that every
-machine produces the same picture.
+for each label in turn, repeatedly, until no label moves. Only sums, products and quotients are used, which every
+machine rounds alike. Therefore every machine produces the same picture.
 """
 
 from collections.abc import Sequence

@@ -28,7 +28,7 @@ class Pixel:
 class Layout:
     """The size of a picture in pixels, including its margins, and the positions of its points.
 
-    ``boundary`` and ``inside`` are the positions of the points that are not vertices.
+    ``vertices``, ``boundary`` and ``inside`` are the positions of the three kinds of points.
     """
 
     width: int

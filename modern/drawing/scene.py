@@ -46,8 +46,8 @@ class Pane:
 class Scene:
     """The projection of a hull, before its size in pixels is known.
 
-    ``images`` are the positions of the vertices in the order of ``Hull.vertices``, and ``hidden`` is True for each
-    hidden vertex. ``boundary`` and ``inside`` are the other points. ``faces`` is the number of faces.
+    ``images`` are the positions of the vertices in the order of ``Hull.vertices``, and ``hidden`` tells for each vertex
+    if it is hidden. ``boundary`` and ``inside`` are the other points. ``faces`` is the number of faces.
     """
 
     dimension: int
@@ -68,7 +68,8 @@ class Scene:
 def scene(hull: Hull, eye: Sequence[Fraction] | None = None) -> Scene:
     """Return the projection of a hull along the direction ``eye``. If it is None, choose a suitable direction.
 
-    Raise ExportError if there is no hull, or if the direction is 0,0,0 or shows a polygon or segment edge-on.
+    Raise ExportError if there is no hull, if the direction is 0,0,0, or if a polygon would appear as a line or a
+    segment as a point.
     """
     surface = mesh(hull)
     points = surface.numbers()
@@ -115,7 +116,7 @@ def scene(hull: Hull, eye: Sequence[Fraction] | None = None) -> Scene:
 
 
 def _away(signs: Sequence[int]) -> bool:
-    """Return True if all faces at a point, given by their signs, are turned away from the eye, and none is edge-on."""
+    """Return True if every face at a point is turned away from the eye, i.e. has the sign -1 (0 means edge-on)."""
     return bool(signs) and all(sign < 0 for sign in signs)
 
 

@@ -56,7 +56,7 @@ class Frame:
 def frames(
     hull: Hull, eye: Sequence[Fraction | int] | None = None, width: int = _CELL, height: int = 10 * _CELL
 ) -> tuple[Frame, ...]:
-    """Return a picture of each stage of a hull that has a history, at most as large as the given size in pixels.
+    """Return a picture of each stage in the ``history`` of a hull, at most as large as the given size in pixels.
 
     Raise ExportError if there is no hull or if the hull has no stages.
     """
@@ -97,7 +97,7 @@ def frames(
 
 
 def row(all_frames: Sequence[Frame], title: str) -> str:
-    """Return the hulls of all stages next to each other, without captions, as the text of an SVG file."""
+    """Return the text of an SVG file that shows the pictures of all stages next to each other, without captions."""
     width, height = all_frames[0].layout.width, all_frames[0].layout.height
     items = []
     for k, frame in enumerate(all_frames):
@@ -106,7 +106,7 @@ def row(all_frames: Sequence[Frame], title: str) -> str:
 
 
 def strip(all_frames: Sequence[Frame], title: str = "", columns: int = _COLUMNS) -> str:
-    """Return the pictures of all stages, in rows of ``columns`` pictures, as the text of an SVG file."""
+    """Return the text of an SVG file that shows the pictures of all stages in rows of ``columns`` pictures."""
     cell = (all_frames[0].layout.width, all_frames[0].layout.height + _BAND)
     columns = min(columns, len(all_frames))
     rows = -(-len(all_frames) // columns)
@@ -152,7 +152,7 @@ def _items(frame: Frame) -> Iterator[str]:
 
 
 def _number(index: int, at: Pixel, layout: Layout) -> str:
-    """Return the number of a point as text beside its dot, towards the nearer corner of the picture."""
+    """Return the number of a point as an SVG text next to its dot, on the side of the nearest corner of the picture."""
     is_left, is_upper = at.x < 50 * layout.width, at.y < 50 * layout.height
     place = Pixel(at.x + (-700 if is_left else 700), at.y + (-500 if is_upper else 1400))
     return svg.text(place, str(index + 1), 'text-anchor="end"' if is_left else "")

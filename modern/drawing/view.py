@@ -71,7 +71,7 @@ def view(eye: Eye) -> View:
 
 
 def root(square: Fraction) -> Fraction:
-    """Return the square root of ``square``, which is at least 1, truncated to 15 decimals."""
+    """Return the square root of a number, truncated to 15 decimals. The number is at least 1."""
     return Fraction(math.isqrt(square.numerator * _ROOT * _ROOT // square.denominator), _ROOT)
 
 
@@ -82,11 +82,11 @@ def along(direction: Eye, point: Vector) -> Fraction:
 def choose(points: Sequence[Vector], normals: Sequence[Vector]) -> Eye:
     """Return a direction in which no face is edge-on and no two vertices coincide, decided exactly.
 
-    Among ``EYES``, choose the direction with the greatest score: the number of visible faces, reduced if a face is
-    nearly edge-on or two vertices nearly coincide. Of several directions with the greatest score, choose the first. If
-    no direction of ``EYES`` is suitable, choose the first suitable direction on the curve (t, -t t - 1, t t t) for t =
-    2, 3, 4 and so on. A face or a pair of vertices excludes at most three directions of the curve, so a suitable
-    direction exists.
+    Among the fixed directions ``EYES``, choose the one with the greatest score: the number of visible faces, reduced if
+    a face is nearly edge-on or two vertices nearly coincide. Of several directions with the greatest score, choose the
+    first. If no direction of ``EYES`` is suitable, choose the first suitable direction on the curve (t, -t^2 - 1, t^3)
+    for t = 2, 3, 4 and so on. A face or a pair of vertices excludes at most three directions of the curve, so a
+    suitable direction exists.
     """
     _, places = whole(points)
     primitive_normals = [lowest(normal) for normal in normals if any(normal)]
@@ -132,7 +132,7 @@ def _axes(eye: Eye) -> tuple[Eye, Eye]:
 
 
 def _clearness(points: Sequence[Eye], normals: Sequence[Eye], eye: Eye) -> Fraction:
-    """Return how clearly a direction shows all faces and vertices: from 0 (unsuitable) to 1."""
+    """Return a score, from 0 (unsuitable) to 1, for how clearly a direction shows all faces and vertices."""
     if not _is_suitable(points, normals, eye):
         return Fraction(0)
     square = dot(eye, eye)

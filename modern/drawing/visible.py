@@ -31,7 +31,7 @@ JOINED: Final = "joined"
 
 @dataclass(frozen=True, slots=True)
 class Edge:
-    """An edge between two vertices, the smaller index first, with its kind and the indices of its faces."""
+    """An edge: the indices of its two vertices, the smaller one first, its kind, and the indices of its faces."""
 
     start: int
     end: int
@@ -40,12 +40,12 @@ class Edge:
 
 
 def line_through(a: tuple[N, N, N], b: tuple[N, N, N]) -> tuple[N, N, N]:
-    """Return the coefficients a, b, c of the paper's formula (1), the line from one projected point to another."""
+    """Return the coefficients a, b, c of formula (1), the equation of the line from one projected point to another."""
     return a[2] * b[1] - a[1] * b[2], a[0] * b[2] - a[2] * b[0], a[1] * b[0] - a[0] * b[1]
 
 
 def value(line: tuple[N, N, N], point: tuple[N, N, N]) -> N:
-    """Return the value of the paper's formula (1), which is positive if the point is to the right of the line."""
+    """Return the value of a line's equation, formula (1), at a point. It is positive to the right of the line."""
     return line[0] * point[0] + line[1] * point[1] + line[2] * point[2]
 
 
@@ -57,8 +57,8 @@ def facing(corners: Sequence[tuple[N, N, N]]) -> int:
     """Return 1 if a face is visible, -1 if it is turned away from the eye, 0 if it is edge-on.
 
     ``corners`` are the projected corners, clockwise as seen from outside. The paper evaluates formula (1) for one
-    triangle of the face, which gives 0 if its corners are collinear. This function adds the values of all triangles.
-    The sum has the same sign as the value of each triangle that is not degenerate.
+    triangle of the face, which gives 0 if the triangle's corners are collinear. This function divides the face into
+    triangles and adds their values, which all have the same sign or are 0.
     """
     first = corners[0]
     return sign(sum(value(line_through(first, corners[k]), corners[k + 1]) for k in range(1, len(corners) - 1)))
@@ -69,8 +69,8 @@ def classify(
 ) -> tuple[Edge, ...]:
     """Return every edge of a solid once, sorted, with its kind (see ``Kind``).
 
-    ``signs`` has the result of ``facing`` for each face. The function ``flat`` receives the indices of two faces and
-    returns True if they are coplanar.
+    ``signs`` has the result of ``facing`` for each face: 1 if it is visible, -1 if it is turned away, 0 if edge-on. The
+    function ``flat`` receives the indices of two faces and returns True if they are coplanar.
     """
     edge_faces: dict[tuple[int, int], list[int]] = defaultdict(list)
     for face_index, face in enumerate(faces):

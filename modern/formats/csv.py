@@ -15,9 +15,9 @@ _NOT_FINITE = ("nan", "inf", "infinity")
 def rows(text: str, source: str) -> Iterator[tuple[int, list[str]]]:
     """Read a text of rows and yield, for each, its line number and its fields without surrounding blanks.
 
-    The first row determines the separator: a semicolon, else a comma, else a tab, else blanks.  Blank lines and lines
-    that begin with ``#`` are skipped.  A first row is also skipped if it is a heading: none of its fields has a digit,
-    or all of them are names such as ``x1``.  Raise FileError if the csv module cannot read a row.
+    The separator is the first of semicolon, comma and tab that the first row contains, or else blanks.  Blank lines and
+    lines that begin with ``#`` are skipped.  A first row is also skipped if it is a heading: none of its fields has a
+    digit, or all of them are names such as ``x1``.  Raise FileError if the csv module cannot read a row.
     """
     lines = text.splitlines()
     first = next((line for line in lines if line.strip() and not line.lstrip().startswith("#")), "")
@@ -36,7 +36,7 @@ def rows(text: str, source: str) -> Iterator[tuple[int, list[str]]]:
 
 
 def _normalised(line: str, separator: str) -> str:
-    """Return a line for the csv module: "" for a comment.  If blanks separate the fields, make them single blanks."""
+    """Return a line as the csv module needs it: "" for a comment, and with single blanks if these separate fields."""
     if line.lstrip().startswith("#"):
         return ""
     return line if separator else " ".join(line.split())

@@ -124,7 +124,7 @@ def data_deck(points: Sequence[Sequence[str]], source: str, truncate: bool = Fal
 def with_epsilon(deck: Deck, epsilon: object) -> Deck:
     """Return the deck with the tolerance e punched after N, for programs changed to use it (layer ``epsilon``).
 
-    Raise ArgumentError if e does not fit.
+    Raise ArgumentError if e does not fit into its columns.
     """
     size = read_epsilon(epsilon)
     if size is None or size[1]:

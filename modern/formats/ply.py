@@ -1,8 +1,8 @@
 """Write and read PLY (Turk, "The PLY Polygon File Format", 1994).  Polygons and decimal text are preserved.
 
 Written files are ASCII.  A polyhedron is written with its faces, a polygon with one face, a segment as an element
-``edge``, a point as one vertex.  The coordinates are declared ``double``, so that other readers may round them, but
-their text is exact.  The reader returns the vertices and faces of ASCII and binary files of either byte order.  It
+``edge``, a point as one vertex.  The text of the coordinates is exact. They are declared ``double``, so other
+readers may round them.  The reader returns the vertices and faces of ASCII and binary files of either byte order.  It
 rejects triangle strips if faces are needed.
 """
 
@@ -48,7 +48,8 @@ _MOST_HEADER = 1 << 16
 class _Element:
     """A kind of item in a PLY file (vertex or face), with its properties.
 
-    A property is its name, the struct code of its values and, for a list, the struct code of its length, otherwise "".
+    Each property is a triple: its name, the struct code of its values, and the struct code of the length of a list. The
+    last code is "" if the property is not a list.
     """
 
     name: str

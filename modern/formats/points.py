@@ -108,7 +108,8 @@ def deck_or_points(data: bytes, source: str) -> str:
     """Return the format of a file of points, or "deck" if it is not clearly one of the other formats.
 
     In the second case the reader of decks reads the file next and reports any error in it.  A text whose first line has
-    several words is a list only if they are three numbers, because the first card of a deck may hold e after N.
+    several words is a list only if they are three numbers, because the first card of a deck may hold two: the number of
+    points N and a tolerance e.
     """
     try:
         kind = kind_of(data, source)

@@ -60,7 +60,7 @@ def is_binary(data: bytes) -> bool:
 
 
 def surface_binary(data: bytes, source: str) -> FileMesh:
-    """Return the triangles of a binary STL file, with exact decimals.
+    """Return the triangles of a binary STL file, with coordinates as exact decimals.
 
     The member ``lines`` of the result has for each point the number of its first triangle, from 1.
     """

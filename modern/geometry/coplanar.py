@@ -39,11 +39,11 @@ class CoplanarError(ExportError):
 class Joined:
     """A convex surface with faces joined ``within`` the distance E.
 
-    ``groups`` has for each joined face the indices of the faces that it replaces.  The joined face has the plane of the
-    first of them.  ``loops`` are the polygons of the joined faces, counterclockwise seen from outside.  ``left_out``
-    has the points that belong to no polygon, because they lie inside a joined face.  ``square`` is the square of the
-    largest distance of a vertex from the plane of its joined face.  ``beyond`` is the square of the smallest E that
-    would join one more face, or None.
+    ``groups`` has for each joined face the indices of the faces that it replaces.  Each joined face has the plane of
+    the first face that it replaces.  ``loops`` are the polygons of the joined faces, counterclockwise seen from
+    outside.  ``left_out`` has the points that belong to no polygon, because they lie inside a joined face.  ``square``
+    is the square of the largest distance of a vertex from the plane of its joined face.  ``beyond`` is the square of
+    the smallest E that would join one more face, or None.
     """
 
     within: Fraction
@@ -65,7 +65,7 @@ class Joined:
 
 
 def parse_distance(value: object) -> Fraction:
-    """Return a distance, given as text, fraction ``p/q`` or number, as a fraction.  Raise CoplanarError if invalid."""
+    """Return a distance as a Fraction.  ``value`` is a number or its text.  Raise CoplanarError if it is invalid."""
     try:
         distance = Fraction(real(value))
     except ValueError as error:
@@ -145,8 +145,8 @@ def coplanar(hull: Hull, within: object) -> tuple[Hull, Joined | None]:
     """Return the hull with its coplanar faces joined, and a record of the joining.
 
     A hull without volume is returned unchanged, with None.  A joined face has the equation of the largest face that it
-    replaces, and its vertices lie within the distance of that plane.  Vertices inside joined faces become boundary
-    points.  Raise CoplanarError if the distance is invalid or too large, and ExportError if the hull was not
+    replaces, and its vertices are at most ``within`` from the plane of that face.  Vertices inside joined faces become
+    boundary points.  Raise CoplanarError if the distance is invalid or too large, and ExportError if the hull was not
     determined.
     """
     limit = parse_distance(within)
@@ -213,7 +213,7 @@ def root_text(square: Fraction) -> str:
 
 
 def distance_text(value: Fraction) -> str:
-    """Return a distance for a message: exact if that is short, otherwise rounded to six digits."""
+    """Return a distance as text for a message: all of its digits if they are few, otherwise six significant digits."""
     exact = finite_decimal(value)
     text = str(value) if exact is None else _plain(Decimal(exact))
     work = Context(prec=6, Emin=MIN_EMIN, Emax=MAX_EMAX)
@@ -228,7 +228,10 @@ def _plain(value: Decimal) -> str:
 
 
 def _depth(points: Sequence[IntVector], normal: IntVector, base: int, indices: Sequence[int]) -> int:
-    """Return the square of the largest distance of the points from the plane through ``base``, times |normal|^2."""
+    """Return the largest squared distance of points from a plane, multiplied by |normal|^2, which makes it an integer.
+
+    The plane passes through the point ``base``; ``indices`` are those of the points to be measured.
+    """
     level = dot(normal, points[base])
     return max(abs(level - dot(normal, points[index])) for index in indices) ** 2
 
@@ -254,7 +257,10 @@ def _loop(surface: Mesh, group: Sequence[int], within: Fraction) -> tuple[int, .
 def _check_convex(
     points: Sequence[IntVector], scale: int, loop: Sequence[int], normal: IntVector, within: Fraction
 ) -> None:
-    """Raise CoplanarError if a corner, seen along the normal, is more than E inside the polygon's hull."""
+    """Raise CoplanarError if a corner of the polygon ``loop`` lies more than E inside the convex hull of the polygon.
+
+    The distance is measured in the view along the normal.
+    """
     size = dot(normal, normal)
     corners = [points[index] for index in loop]
     hull = _outer(corners, normal)

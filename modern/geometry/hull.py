@@ -1,6 +1,6 @@
 """The data of a convex hull: one type for a point, a segment, a polygon and a polyhedron.
 
-Points are identified by their index in the input, from 0.  A program numbers the vertices in the order of
+Points are identified by their index in the input, from 0.  Butler's programs number the vertices in the order of
 :attr:`Hull.vertices`.  Numbers are exact text: decimals, or fractions ``p/q`` if the decimal expansion does not end.
 The text of a binary float is the exact decimal of its value.
 """
@@ -110,13 +110,14 @@ def as_tuple(members: Sequence[T]) -> tuple[T, ...]:
 
 @dataclass(frozen=True, slots=True)
 class Face:
-    """A supporting plane A x + B y + C z + D = 0, or a supporting line of a polygon; its value is positive outside.
+    """A supporting plane A x + B y + C z + D = 0, or a supporting line of a polygon.  Outside, its value is positive.
 
     ``coefficients`` are A, B, C and D as the thesis computes them, as sums of products of coordinates of the defining
-    points. For a line, the coefficient of the coordinate that the projection drops is 0 (thesis p. 16-17).  ``lowest``
-    is the same equation in integers without a common divisor.  ``defining`` are the points MM, NN and KK (for a line MM
-    and NN) from which the equation was computed.  ``polygon`` are the vertices on the plane in cyclic order,
-    counterclockwise seen from outside; a line has two.  ``on`` are the other input points on the plane or line.
+    points.  The line of a polygon is computed without one of the coordinates x, y, z, whose coefficient is 0 (thesis p.
+    16-17).  ``lowest`` is the same equation in integers without a common divisor.  ``defining`` are the points MM, NN
+    and KK (for a line MM and NN) from which the equation was computed.  ``polygon`` are the vertices on the plane in
+    cyclic order, counterclockwise seen from outside; a line has two.  ``on`` are the other input points on the plane or
+    line.
     """
 
     coefficients: Coefficients
@@ -182,7 +183,7 @@ class Hull:
     duplicates: pairs of a point and the first point with the same coordinates.  The thesis requires distinct points,
         so duplicates are reported and otherwise ignored.
     plane: the plane of a polygon, as program 1 punches it.
-    lines: two equations for the line of a segment, or for each of the three sides of a triangle of three points.
+    lines: two equations for each line: for that of a segment, or for the three sides if the input is three points.
     centre: for a polyhedron the inside point C, the mean of the points of H_1.
     statement: the program and statement number in Butler's listing at which the status was decided.
     corrected: identifiers of the modern corrections that changed a branch of the listing.

@@ -23,7 +23,7 @@ class ExportError(EmulatorError):
 class Mesh:
     """The surface of a hull.
 
-    points: the vertices in the order of ``Hull.vertices``, as exact text, which may be made on access.
+    points: the vertices in the order of ``Hull.vertices``, as exact text, which may be computed on access.
     faces: for each face the indices of its vertices in ``points``, counterclockwise seen from outside.  The face of a
         polygon is counterclockwise seen from the side to which (A, B, C) of its plane points.  A segment or a point has
         no faces.

@@ -1,8 +1,8 @@
 """Convert decimals and fractions to exact numbers, and exact numbers to text.
 
 ``exact_text`` formats the numbers of a hull. ``decimal_text`` and ``finite_decimal`` format numbers in files and
-messages, and begin to use a decimal exponent at shorter numbers than ``exact_text`` does.  The module must not import
-numpy, because a page of the site runs it in the reader's browser, where numpy is missing.
+messages, and use a decimal exponent also for numbers that ``exact_text`` writes without one.  The module must not
+import numpy, because a page of the site runs it in the reader's browser, where numpy is missing.
 """
 
 import re
@@ -109,7 +109,7 @@ def real(value: object) -> Exact:
 def read_epsilon(epsilon: object) -> tuple[Fraction, bool] | None:
     """Return the value of a tolerance e, and True if it is relative (``"rel:E"``).  Return None if ``epsilon`` is None.
 
-    Raise ArgumentError unless e is a real number, or its text, that is not negative.
+    Raise ArgumentError unless e is a real number of at least 0, or the text of one.
     """
     if epsilon is None:
         return None

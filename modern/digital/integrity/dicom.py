@@ -1,7 +1,7 @@
-"""Check every element of a DICOM file for damage, and the length of the pixel data (PS3.5 and PS3.10).
+"""Check every element of a DICOM file for damage, and check the length of the pixel data (PS3.5 and PS3.10).
 
-SimpleITK silently omits a file that is truncated early from its series. Pixel data in a compressed transfer syntax have
-no checksum and are rejected.
+If a file is truncated near its beginning, SimpleITK silently omits it from the series. Pixel data in a compressed
+transfer syntax have no checksum and are rejected.
 """
 
 import os
@@ -32,7 +32,7 @@ _DEEPEST = 32
 
 
 class Unverifiable(VolumeError):
-    """Raised for pixel data that are compressed without a checksum, so that damage could not be noticed."""
+    """Raised for pixel data that are compressed without a checksum, because damage to them could not be noticed."""
 
 
 @dataclass(slots=True)
@@ -76,7 +76,7 @@ class _Elements:
         return kind, struct.unpack(f"{self.order}2xI", self.read(6))[0]
 
     def read_set(self, end: int | None, depth: int = 0) -> None:
-        """Read the elements up to position ``end``, or up to the end of an item if ``end`` is None."""
+        """Read the elements up to position ``end``, or up to the end of the current item if ``end`` is None."""
         if depth > _DEEPEST:
             raise VolumeError(f"{self.path}: damaged: sequences are nested more than {_DEEPEST} times")
         while end is None or self.file.tell() < end:

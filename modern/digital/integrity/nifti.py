@@ -1,4 +1,5 @@
-"""Check the header of a NIfTI-1 image file (nifti1.h), the length of its data, and the agreement of its positions.
+"""Check the header of a NIfTI-1 image file (nifti1.h), the length of its data, and the agreement of the positions
+that it states.
 
 SimpleITK replaces invalid sizes, offsets and spacings. It also applies ``scl_inter`` if ``scl_slope`` is 0, although
 the standard says that values are then not scaled. Such headers are rejected. If the positions ``qform`` and ``sform``
@@ -38,8 +39,9 @@ Affine = NDArray[np.float64]
 class NiftiHeader:
     """The contents of a NIfTI header.
 
-    ``sizes`` and ``spacing`` (in millimetres) have a number for each axis. ``forms`` has the positions of the voxels,
-    ``qform`` and ``sform``, if the header states them. ``scaling`` is a note if the values are scaled, otherwise "".
+    ``sizes`` has the number of voxels along each axis, and ``spacing`` their distances in millimetres. ``forms`` has
+    the two positions of the voxels that a header may state, ``qform`` and ``sform``, as affine maps. ``scaling`` is a
+    note if the values are scaled, otherwise "".
     """
 
     sizes: tuple[int, ...]
@@ -161,9 +163,9 @@ def position_notes(header: NiftiHeader, world: World | None) -> list[str]:
 
 
 def _distance(first: Affine, second: Affine, header: NiftiHeader, spacing: bool = True) -> float:
-    """Return the largest distance between the places that two affine maps give to a corner of the volume.
+    """Return by how much two affine maps differ: the largest distance between the two images of a volume's corner.
 
-    Return 0 if the distance is negligible. If ``spacing`` is False, compare only directions and origins: both maps are
+    Return 0 if this distance is negligible. If ``spacing`` is False, compare only directions and origins: both maps are
     changed to have the spacing of ``pixdim``.
     """
     sides = np.array([*header.sizes, 1, 1][:3], dtype=np.float64)

@@ -40,7 +40,7 @@ def outside_note(header: str, name: str) -> str:
 
 
 def chunks_of(file: BinaryIO, count: int) -> Iterator[bytes]:
-    """Yield the next ``count`` bytes of a file in pieces, or fewer bytes if the file ends before."""
+    """Yield the next ``count`` bytes of a file in pieces, or fewer bytes if the file ends earlier."""
     while count > 0 and (chunk := file.read(min(CHUNK, count))):
         count -= len(chunk)
         yield chunk

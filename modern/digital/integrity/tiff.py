@@ -153,7 +153,7 @@ class _Reader:
 
 
 def _one(page: Tags, tag: int, source: str, default: int = 0) -> int:
-    """Return the only value of a TIFF tag. If a tag has a value for each colour sample, all must be equal."""
+    """Return the value of a TIFF tag, or ``default`` if it is missing. Several values of a tag must all be equal."""
     values = page.get(tag, (default,))
     if not values or isinstance(values, bytes) or len(set(values)) != 1 or not isinstance(values[0], int):
         raise VolumeError(f"{source}: damaged: tag {tag} has no valid value")
@@ -161,9 +161,9 @@ def _one(page: Tags, tag: int, source: str, default: int = 0) -> int:
 
 
 def _images(page: Tags) -> int:
-    """Return the number of images that a page's description by ImageJ states, or 0 without such a description.
+    """Return the number of images in ImageJ's description of a page, or 0 if the page has no such description.
 
-    ImageJ writes a stack of more than 4 GB with a single page.
+    ImageJ writes a stack of more than 4 GB as a file with a single page.
     """
     description = page.get(_DESCRIPTION, b"")
     if isinstance(description, bytes) and description.startswith(b"ImageJ="):
