@@ -26,7 +26,7 @@ from modern.thesis.refusals import Cause, explain_run
 
 _LIMIT = 1_000_000
 _NOT_RUN = "not run"
-_HEAD = ("route", "status", "vertices", "misfiled", "planes", "error", "excluded")
+_HEAD = ("route", "status", "vertices", "misfiled", "planes", "coefficient error", "point outside")
 
 
 @dataclass(frozen=True, slots=True)

@@ -291,7 +291,7 @@ def report(collation: Collation, text: str) -> Iterator[str]:
             readings = [reading for _, reading in group]
             if readings[0].verdict in ("contradicts", "supports a rival"):
                 there, here = "".join(r.transcription for r in readings), "".join(r.edition for r in readings)
-                yield f"{place}: {readings[0].verdict}: {there or 'nothing'} for {here}"
+                yield f"{place}: {readings[0].verdict}: {there or 'nothing'} in the transcription for {here}"
 
 
 def _ranges(numbers: Sequence[int]) -> str:

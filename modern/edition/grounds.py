@@ -68,7 +68,7 @@ def check_decks() -> Iterator[Proof]:
         yield Proof(
             f"{entry.name}.f",
             same and compiles,
-            f"{len(built.cards)} cards {'equal' if same else 'DIFFER from'} witness and {rows} rows"
+            f"the {len(built.cards)} cards {'equal' if same else 'DIFFER from'} the witness with {rows} rows applied"
             + ("" if compiles else ", and do NOT compile"),
         )
 
@@ -83,10 +83,14 @@ def check_layers() -> Iterator[Proof]:
     for layer in dict.fromkeys(layer for _, layer, _ in table):
         of_layer = [(name, sha) for name, found, sha in table if found == layer]
         cards = {name: programs.deck(name, (layer,)).text() for name, _ in of_layer}
-        faults = [f"{name} has other cards" for name, sha in of_layer if provenance.digest(cards[name]) != sha]
+        faults = [
+            f"{name} has other cards than SOURCES.toml records"
+            for name, sha in of_layer
+            if provenance.digest(cards[name]) != sha
+        ]
         decks = _decks_of(layer) if layer == "corrected" and find_spec("numpy") else ()
         faults += [f"deck {name} does not give the exact hull" for name in decks if not _exact_with(layer, name)]
-        message = f"{len(of_layer)} programs have the cards of SOURCES.toml"
+        message = f"{len(of_layer)} programs have the cards that SOURCES.toml records"
         message += f", and {len(decks)} decks give the exact hull" if decks else ""
         yield Proof(f"layer {layer}", not faults, faults[0] if faults else message)
 

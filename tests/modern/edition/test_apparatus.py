@@ -42,7 +42,7 @@ def test_decks_and_optional_layers_hold() -> None:
     assert all(proof.holds for proof in proofs)
     for proof in proofs:
         cards = len(programs.committed(proof.subject.removesuffix(".f")).cards)
-        assert proof.message.startswith(f"{cards} cards equal witness and ")
+        assert proof.message.startswith(f"the {cards} cards equal the witness with ")
     assert [proof.message for proof in grounds.check_layers() if not proof.holds] == []
 
 
@@ -127,7 +127,7 @@ def test_names_cards_and_layers_without_a_row_are_rejected_or_found() -> None:
 
 TRUE_GROUNDS = [
     ("P1-001", "parse: without the row: not a statement of this FORTRAN: C"),
-    ("P1-002", "parse: without the row: program1.f: card 22, column 9: '#' is "),
+    ("P1-002", "parse: without the row: program1.f: card 22, column 9: write '=' for '#'"),
     (
         "P1-018",
         "forced: card 125+1 equals card 125+3 with O3 for O1, X for Y, Y for Z, and cards 125+1 to 226 compute V of "
@@ -163,9 +163,9 @@ def test_outcomes_are_equal_if_cards_and_ending_are() -> None:
 @pytest.mark.parametrize(
     ("line", "message"),
     [
-        ("END", "cards equal witness and "),
-        ("STOP", "cards DIFFER from witness and "),
-        ("GO TO", "cards DIFFER from witness and "),
+        ("END", "cards equal the witness with "),
+        ("STOP", "cards DIFFER from the witness with "),
+        ("GO TO", "cards DIFFER from the witness with "),
     ],
 )
 def test_a_deck_that_differs_from_its_build_fails(line: str, message: str, monkeypatch) -> None:
