@@ -80,7 +80,7 @@ def run_with_decisions(program: Program, deck: Deck, arithmetic: Numbers) -> tup
 
 @dataclass
 class Counts:
-    """Counts of the differences between compiled programs and the emulator, and the place of the first of each kind."""
+    """The number of differences of each kind between compiled programs and the emulator, and the place of the first."""
 
     counts: Counter[str] = field(default_factory=Counter)
     first: dict[str, str] = field(default_factory=dict)

@@ -224,7 +224,7 @@ def _preprocessing(preprocessing: Preprocessing) -> Iterator[str]:
 
 
 def _growth(loop: Loop, width: int) -> Iterator[str]:
-    """Yield a line with the type and the points SP and MP of a loop, and a table of each edge's uses after the loop."""
+    """Yield the type, start point SP and match point MP of a loop, and how often each edge has been used so far."""
     yield f"  type {loop.kind}, start SP {loop.start + 1}, match MP {loop.match + 1}"
     cell = len(str(len(loop.uses))) + 1
     columns = max(1, (width - len("  IUC(L)")) // cell)
@@ -247,7 +247,7 @@ def _fates(inputs: Sequence[Surface], fates: Fates) -> Iterator[str]:
 
 
 def _false_edges(source: Input, hull: Assembled) -> Iterator[str]:
-    """Yield a report of the lines that the star polygon test, applied as printed, wrongly accepts as edges."""
+    """Yield a report of the lines that the paper's test for edges, applied as printed, wrongly accepts as edges."""
     edges = set(appel_will(source.points).edges)
     false = [label for label, edge in enumerate(hull.edges, 1) if edge not in edges]
     if false:

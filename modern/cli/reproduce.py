@@ -96,7 +96,10 @@ def main(args: argparse.Namespace) -> int:
 
 @contextmanager
 def _skipping(left_out: list[str], is_requested: bool, name: str) -> Iterator[None]:
-    """Append ``name`` to ``left_out`` if the ``with`` block lacks numpy, unless the user has named the result."""
+    """Append ``name`` to ``left_out`` if the ``with`` block fails because numpy is missing.
+
+    If the user has requested the result by name, raise the error instead.
+    """
     try:
         yield
     except ModuleNotFoundError as error:
@@ -161,7 +164,7 @@ def _example_lines(
 
 
 def _same(verdict: Verdict) -> str:
-    """Return text with the numbers of points and planes that agree in another order; empty for other verdicts."""
+    """Return text with the numbers of points and planes that are the same in another order, or an empty text."""
     counted = ", ".join(f"{count} {_PARTS[part]}" for part, count in verdict.same)
     return f"the same {counted}" if counted else ""
 

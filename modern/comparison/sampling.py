@@ -33,8 +33,9 @@ from modern.comparison.sensitivity import NUMBER, shape_of
 class StatementDigits:
     """The estimated numbers of significant digits of the values that one statement stored in the random runs.
 
-    ``worst`` and ``median`` are the fewest digits and the median by Stott Parker's estimate, and ``sure`` is the fewest
-    digits by Sohier's.  ``times`` is the number of values, ``inexact`` the number of values that differ between the
+    ``worst`` and ``median`` are the fewest digits and the median by Stott Parker's estimate, which counts the digits
+    common to the runs.  ``sure`` is the fewest digits by Sohier's, which counts the digits of a run that are right with
+    probability 95 %.  ``times`` is the number of values, ``inexact`` the number of values that differ between the
     runs, and ``zeros`` the number of computational zeros among these.
     """
 
@@ -66,7 +67,7 @@ class DecisionShares:
 
 @dataclass(frozen=True, slots=True)
 class Printed:
-    """A printed number: its record (a card or typed line, from 1), its values in the runs, and their digits."""
+    """A printed number: the number of its card or typed line, from 1, its values in the runs, and their digits."""
 
     record: int
     columns: str
@@ -161,7 +162,7 @@ def _fraction(value: Fraction | int | None) -> Fraction | None:
 
 
 def _vote(votes: _Votes, signs: Sequence[int], branch: Sequence[int], taken: int) -> None:
-    """Count an execution of an IF.  It counts as disputed if a run alone would not take the common branch."""
+    """Count an execution of an IF.  It counts as disputed if the sign in some run would select another branch."""
     votes.times += 1
     if {branch[1 + sign] for sign in signs} != {branch[1 + taken]}:
         votes.disputed += 1
@@ -187,7 +188,7 @@ class Independent:
 
     ``shares`` counts the runs that print each sequence of records, the most frequent first.  Sequences that differ only
     in the digits of printed numbers count as the same.  ``printed`` holds the numbers that the runs with the most
-    frequent sequence print.  ``decisions`` compares execution n of an IF in all runs that reach it.
+    frequent sequence print.  ``decisions`` compares the nth execution of an IF in all runs that reach it.
     """
 
     shares: tuple[int, ...]

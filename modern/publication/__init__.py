@@ -7,6 +7,6 @@ make the deposit. ``flow``, ``chart`` and ``chart_svg`` draw flow charts. ``cons
 
 The other modules collect the facts that pages show, as frozen dataclasses without HTML: ``facing``, ``commentary``,
 ``moments``, ``uses``, ``measured`` and ``core`` about the programs, ``examples`` about the printed examples,
-``numbered`` about numbered lists in documents, ``steps`` about the pictures of papers, ``essay`` about those of the
-home page, and ``figures`` about the results that documents quote.
+``numbered`` about numbered lists in documents, ``steps`` about the pictures of papers, ``essay`` about the pictures
+of the home page, and ``figures`` about the results that documents quote.
 """

@@ -180,9 +180,9 @@ class _Rail:
 class _Plan:
     """The layout of a page before its lines are drawn.
 
-    ``lanes`` has the lane of each rail by target and side, and ``landed`` the boxes to which connectors lead. The lists
-    contain a vertical coordinate for each box: of the turn below it (``turns``), of the connector above it (``lands``),
-    and of the lower end of its rails (``joins``).
+    ``lanes`` has the lane of each rail by target and side, and ``landed`` the boxes to which connectors lead. For
+    each box, ``turns`` has the vertical coordinate of the turn below the box, ``lands`` that of the connector above the
+    box, and ``joins`` that of the lower end of its rails.
     """
 
     height: int
@@ -286,7 +286,7 @@ def _rails(flow: Flow, inside: range) -> list[_Rail]:
 
 
 def _lanes(rails: Sequence[_Rail]) -> dict[tuple[int, Where], int]:
-    """Assign each rail to a lane, the shortest first, but omit a rail without a free lane."""
+    """Assign the rails to lanes, the shortest rail first. A rail for which no lane is free is omitted."""
     taken: dict[tuple[Where, int], list[_Rail]] = {}
     lanes: dict[tuple[int, Where], int] = {}
     for rail in sorted(rails, key=lambda r: (r.last - r.first, r.first, r.target)):

@@ -1,7 +1,7 @@
 """Draw a flow chart as SVG in the symbols of the thesis (p. 60).
 
 The thesis has symbols for the direction of flow, a decision, input and output, processing, and a connector or step. The
-picture contains its text as text, and no meaning depends on colour.
+picture contains its text as characters, not as outlines, and no meaning depends on colour.
 """
 
 from collections.abc import Callable, Iterator, Sequence

@@ -22,8 +22,8 @@ class Block:
     """Consecutive cards with one purpose.
 
     ``cards`` are their numbers in the deck. ``steps`` names rows of the concordance with chapter 3 of the thesis
-    (``docs/reference/concordance.md``). ``marks`` names the variables whose points the picture of the block highlights
-    (:mod:`modern.publication.moments`).
+    (``docs/reference/concordance.md``). ``marks`` names variables that refer to points; the picture of the block
+    highlights these points (:mod:`modern.publication.moments`).
     """
 
     title: str
@@ -59,8 +59,9 @@ class Commentary:
 def commentary(program: str) -> Commentary:
     """Return the commentary on a built-in program; variants of a program share its text.
 
-    A block ends before the first card of the next block, because a variant may lack the last card of a block.  Raise
-    KeyError for an unknown program, and ValueError if the file names a place or a variable that does not exist.
+    A block ends before the first card of the next block. The last card that the file names for a block does not decide
+    its end, because a variant may lack this card.  Raise KeyError for an unknown program, and ValueError if the file
+    names a place or a variable that does not exist.
     """
     entry = programs.built_in(program)
     path = programs.sources().joinpath("commentary", f"{entry.text}.toml")
@@ -80,7 +81,7 @@ def commentary(program: str) -> Commentary:
 
 
 def _blocks_from_last(rows: list[dict[str, Any]], program: str, text: str) -> Iterator[Block]:
-    """Yield the blocks of a program, the last one first. ``text`` names the program whose places the rows use."""
+    """Yield the blocks of a program, the last one first. ``text`` names the program to whose cards the rows refer."""
     places = [card.place for card in facing(text).cards]
     number_of = {card.place: card.number for card in facing(program).cards}
     end = len(number_of) + 1

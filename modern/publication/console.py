@@ -106,8 +106,8 @@ def recorded() -> str:
 def recorded_run() -> Answer:
     """Return a recorded run of program 3 with example 5, which the page shows until Python is loaded.
 
-    ``load`` is the answer to the request that loads the program, and ``frames`` has the answers of all slices of the
-    run.
+    In the result, ``load`` is the answer to the request that loads the program. ``frames`` has an answer for each slice
+    of the run, which lasts some milliseconds.
     """
     desk = Desk(clock=lambda: 0.0, small=10)
     load = desk.load({"program": "program3", "deck": "example5/punched"})
@@ -155,7 +155,7 @@ def install_machine(folder: Path, wheel: Path | None) -> int:
 
 
 def packages(wheel: Path) -> bytes:
-    """Return an archive of the modules and data of the wheel, lark and mpmath that a page may use."""
+    """Return an archive of those modules and data files of the wheel, lark and mpmath that a page may use."""
     return _stored(files_of(wheel))
 
 

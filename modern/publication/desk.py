@@ -47,7 +47,7 @@ class _Unanswered(Exception):
 
 
 class _Visitor(FromFile):
-    """The operator of the page, who first repeats a log and then takes the actions of the visitor."""
+    """An operator that first repeats the actions in a log and then performs those of the visitor of the page."""
 
     def __init__(self, record: panel.Record, log: str = "") -> None:
         super().__init__("log", log)
@@ -89,7 +89,7 @@ class _Loaded:
 class Desk:
     """A machine with program, decks and operator.
 
-    ``clock`` returns the time in seconds. During a slice it is read after every ``small`` operations.
+    ``clock`` returns the time in seconds. During a run it is read after every ``small`` operations.
     """
 
     clock: Callable[[], float] = time.monotonic
@@ -182,13 +182,14 @@ class Desk:
         ``pace`` is the largest speed as a multiple of the speed of a 1620, or 0 for full speed. The answer has these
         values:
 
-        ``events`` lists the events of the slice, each as kind and text. ``card`` is the card that is executed next,
-        ``statement`` its number in the run, and ``read`` the number of cards read. ``time`` is the time on a 1620 with
-        its bounds, and ``seconds`` is this time as a number. ``stands`` is the reason why the machine waits, or empty.
-        ``waits`` is ``typed`` if the machine waits for a line with ``fields``, ``answer`` if it waits for an action, or
-        empty. ``registers`` has the floating-point and the fixed-point accumulator. ``picture``, ``stages`` (their
-        number) and ``wrote`` (fields) come from :mod:`modern.publication.panel`. A run that never ends is stopped, and
-        ``repeats`` is the number of statements that it repeats.
+        ``events`` lists the events of this part of the run, each as kind and text. ``card`` is the card that is
+        executed next, ``statement`` its number in the run, and ``read`` the number of cards read. ``time`` is the time
+        on a 1620 with its bounds, and ``seconds`` is this time as a number. ``stands`` is the reason why the machine
+        waits, or empty. ``waits`` is ``typed`` if the machine waits for a line with ``fields``, ``answer`` if it waits
+        for an action, or empty. ``registers`` has the floating-point and the fixed-point accumulator. ``picture``,
+        ``stages`` (the number of hulls so far) and ``wrote`` (the fields written) come from
+        :mod:`modern.publication.panel`. A run that never ends is stopped, and ``repeats`` is the number of statements
+        that it repeats.
 
         At the end of the run ``ended`` is true, ``messages`` has the messages of the command, ``next`` names the
         program that reads the punched cards, and ``queued`` is true if a log has further loads.
@@ -254,8 +255,8 @@ class Desk:
         """Go to the beginning of a statement of this run, counted from 1, and return an answer as :meth:`run` does.
 
         To go back, the machine repeats the run and stops before the statement, and everything after it is undone. The
-        answer also has ``undone``: the numbers of lines ``typed`` and cards ``punched`` that remain. To go forward, the
-        machine steps.
+        answer then also has ``undone``, the numbers of ``typed`` lines and ``punched`` cards that remain. To go
+        forward, the machine steps.
         """
         if statement > len(self._record.times):
             self.act(f"STEP {statement - len(self._record.times)}")

@@ -28,13 +28,13 @@ HEAD = ("D, exactly", "D in eight digits", "first point", "second", "third")
 
 
 def card() -> str:
-    """Return the card of the example's first point as SVG."""
+    """Return, as SVG, the card with the first point of the example that the home page shows (:data:`EXAMPLE`)."""
     deck = input_deck(EXAMPLE)
     return cards_svg(type(deck)(deck.source, deck.cards[1:2]), title="a punched data card")
 
 
 def growth(eye: Eye | None = None, width: int = 250, height: int = 2500) -> tuple[Frame, ...]:
-    """Return pictures of the successive hulls of the example, in the order in which the program makes them."""
+    """Return pictures of the successive hulls of the home page's example, in the order in which they are made."""
     points = parse_input(input_deck(EXAMPLE).text(), f"example{EXAMPLE}").points
     return frames(convex_hull(points, "exact", history=True), eye, width, height)
 
@@ -53,14 +53,14 @@ def plane_values(arithmetic: str, points: Sequence[Sequence[int]]) -> tuple[str,
 
 
 def plane_row(x: int) -> tuple[str, ...]:
-    """Return the exact D, the eight-digit D and the eight-digit values of :func:`plane_values` for a value of x."""
+    """Return exact D, eight-digit D and eight-digit values of :func:`plane_values` if the first point has this x."""
     points = ((x, *FIRST), *CORNERS)
     (exact, _), (machine, values) = (plane_values(name, points) for name in ("exact", "truncating"))
     return exact, machine, *values
 
 
 def plane_caption() -> str:
-    """Return the first sentence of the caption of the plane."""
+    """Return the sentence that names the points of the plane in the home page's figure of a plane."""
     others = " and ".join(f"({', '.join(map(str, point))})" for point in CORNERS)
     return f"The plane through (x, {FIRST[0]}, {FIRST[1]}), {others}, as program 3 calculates it."
 

@@ -26,7 +26,7 @@ VERDICTS = {EXACT: "identical", ORDER: "the same hull in another order"}
 class Source:
     """A line of the OCR text.
 
-    ``line`` is its number in the excerpt, and ``at`` its number in the whole document, or 0 if it is unknown.
+    ``line`` is its number in the file of the witness, and ``at`` its number in the whole document, or 0 if unknown.
     ``changed`` has the spans of characters that rows of the apparatus change.
     """
 
@@ -91,7 +91,7 @@ def example(number: int) -> tuple[Part, ...]:
 
 @cache
 def homes() -> dict[str, tuple[int, str]]:
-    """Return, for each emendation, the first example that shows it, and the id of this part of the example."""
+    """Return, for each emendation, the first example that shows it, and the id of the part in which it is shown."""
     first_shown: dict[str, tuple[int, str]] = {}
     for number in EXAMPLES:
         for part in example(number):

@@ -194,7 +194,7 @@ def _further_places(places: Sequence[tuple[str, Kind, int]]) -> Mapping[str, tup
 def _pieces(
     text: Text, lines: Sequence[Line], layers: Sequence[str], everywhere: Collection[str]
 ) -> tuple[dict[str, tuple[Piece, ...]], tuple[tuple[str, tuple[Piece, ...]], ...]]:
-    """Return the pieces of the witness for each card, and the dropped lines by row.
+    """Return the pieces of the witness for each card, and the lines that each row drops from the deck.
 
     A witness line from which several cards were made is divided among them.
     """
@@ -284,7 +284,7 @@ def _divided(line: str, cards: Sequence[str]) -> list[str]:
 def _compared(pieces: Sequence[Piece], card: str) -> tuple[tuple[Piece, ...], tuple[Span, ...]]:
     """Compare the witness of a card with the card, without blanks.
 
-    Return the pieces with the characters that the card lacks, and the ranges of characters that only the card has.
+    Return the pieces, with the ranges of characters that the card lacks, and the ranges that only the card has.
     """
     if not pieces:
         return (), ((0, len(card)),)

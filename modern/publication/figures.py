@@ -37,8 +37,8 @@ class FigureError(ValueError):
 class Cell:
     """A cell of a table.
 
-    ``table`` is the path of the file below ``docs``, ``row`` has the first cells of the row, and ``column`` is the
-    heading of the column.
+    ``table`` is the path of the file below ``docs``, ``row`` identifies the row by its first cells, and
+    ``column`` is the heading of the column.
     """
 
     table: str

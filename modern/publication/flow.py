@@ -1,9 +1,9 @@
 """The control flow of a program as the boxes of a flow chart in the style of 1963.
 
-A box is a sequence of statements of one kind that control enters only at the first: processing, input and output, a
-decision, an empty step, or an end. The boxes are derived from object code, so that the chart shows the control flow of
-the compiled program. A DO becomes two boxes: its first assignment and, after its last statement, the decision whether
-to repeat the loop.
+A box is a sequence of statements of one kind, which control can enter only at its first statement. The kinds are
+processing, input and output, a decision, an empty step, and an end. The boxes are derived from object code, so that the
+chart shows the control flow of the compiled program. A DO becomes two boxes: its first assignment and, after its last
+statement, the decision whether to repeat the loop.
 """
 
 from collections.abc import Iterable, Sequence

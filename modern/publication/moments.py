@@ -1,10 +1,10 @@
 """The points and the hull in a program's variables at the end of each block of its commentary.
 
 The programs run with the decks of chapter 6. The *moment* of a block is the end of its first execution that changes the
-points or the equations, or the end of its first execution if none does. ``marks`` of the commentary
-(``fortran_src/commentary``) name the variables whose points are highlighted. For example, the variables of ``I`` and
-``I1 I2`` contain numbers of points, the variable NETC of ``plane NETC`` contains the number of an equation, and the
-variables of ``at C1 C2 C3`` contain coordinates.
+points or the equations, or the end of its first execution if none changes them. ``marks`` of the commentary
+(``fortran_src/commentary``) name the variables whose points are highlighted. For example, the marks
+``I`` and ``I1 I2`` name variables that contain numbers of points, ``plane NETC`` names a variable that contains the
+number of an equation, and ``at C1 C2 C3`` names variables that contain coordinates.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence

@@ -16,8 +16,8 @@ class Item:
     """A numbered item of a Markdown file.
 
     ``text`` is the Markdown after the title.  ``section`` is the heading above the item, and ``preamble`` the text
-    between that heading and the item if the item is the first of its section.  ``decks`` and ``rows`` are the ground
-    decks and the rows of the apparatus that the item names.
+    between that heading and the item if the item is the first of its section.  ``decks`` are the decks
+    that show a fault, and ``rows`` the rows of the apparatus, as far as the item names them.
     """
 
     number: int

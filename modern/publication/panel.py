@@ -59,7 +59,7 @@ def picture(session: Session, state: tuple[list[Any], list[Any]] | None = None) 
     The result has ``points``, the number of ``vertices``, which are the first points, and ``faces`` as lists of indices
     of points. Points come from the variables X, Y and Z (in program 2, R, S and T), the number of vertices from NV, and
     the faces from the arrays MM, NN and KK, whose first NE entries hold numbers of points. The variables have their
-    present values, or those of an earlier ``state``, a pair of values and kinds.
+    present values, or those of an earlier ``state``: the list of all stored values and the list of their kinds.
     """
     storage = session.program.storage
 
@@ -87,7 +87,7 @@ def picture(session: Session, state: tuple[list[Any], list[Any]] | None = None) 
 
 
 def number(session: Session, field: int, state: tuple[list[Any], list[Any]] | None = None) -> float | None:
-    """Return the present value of a field, or its value in a ``state``, as a float; None if it is undefined."""
+    """Return the value of a field, at present or in an earlier ``state``, as a float; None if it is undefined."""
     values, kinds = state or (session.state.values, session.state.kinds)
     value, kind = values[field], kinds[field]
     if kind == UNDEFINED:

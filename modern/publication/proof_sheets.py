@@ -74,7 +74,7 @@ def _depends(entry: Item | Question) -> str:
 
 
 def _split(item: Item) -> tuple[str, str, str]:
-    """Return the text of a card before the token in question, the token, and the text after it."""
+    """Return the text of a card before the token that the item asks about, the token, and the text after it."""
     return item.text[: item.first], item.text[item.first : item.last], item.text[item.last :]
 
 

@@ -77,8 +77,8 @@ def hidden_lines() -> tuple[Eye, tuple[Plate, ...]]:
     """Draw the scene ``house`` in four steps (Nakamae and Nishita, sections 3.1 to 3.5), and return the eye and the
     steps.
 
-    The first step has all lines. The other steps remove edges between faces that are turned away, parts behind
-    contours, and ghost lines.
+    The first step has all lines. The other steps remove edges of which both faces are turned away from the eye,
+    parts that nearer faces hide, and ghost lines, which only divide a plane face of an object.
     """
     model = scene("house")
     x, y, z = (int(number) for number in model.sight.eye)

@@ -96,7 +96,7 @@ def _descriptions() -> dict[str, str]:
 
 
 def description(path: str, name: str) -> str:
-    """Return the description of a column from columns.toml; without an entry there, refer to the table's report."""
+    """Return the description of a column from columns.toml or, without an entry in it, a reference to the report."""
     for pattern, text in _descriptions().items():
         if fnmatchcase(name, pattern):
             literal = len(pattern) - 1

@@ -37,8 +37,8 @@ _CAUSES = {
 class Heading:
     """The facts of a header.
 
-    ``sha256`` is the hash of the excerpt, or empty for a register. ``text`` is the text with the apparatus that the
-    document contains, or None for a register.
+    ``sha256`` is the hash of the witness's file, or empty for a register. ``text`` is the text with the apparatus that
+    the document contains, or None for a register.
     """
 
     title: str

@@ -227,7 +227,7 @@ def _judged(tally: _Tally, test: Test, known: Mapping[str, Any], has_e: bool) ->
 
 
 def _count_digits(tally: _Tally, known: Mapping[str, Any], bounds: Interval) -> None:
-    """Add the estimated digits of a number to those of numbers with as many true digits, if the number has an error."""
+    """Record the estimates of a number's correct digits under their true number, unless the number has no error."""
     mantissa, exponent = known["machine"]
     ratio = float(known["exact"]) / (mantissa * 10.0 ** (exponent - DIGITS))
     # A relative error below the last digit of the machine is a rounding error of this computation.

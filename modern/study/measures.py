@@ -57,8 +57,9 @@ def operations(sample: Sample, run: HullRun) -> Figures:
 def plane_table(sample: Sample, run: Hull) -> Figures:
     """Find the largest number of entries of program 3's plane table that are in use at once.
 
-    New planes are appended before the planes they replace are deleted, so a stage that begins with L planes and
-    replaces m of them reaches L + 2m + 1 entries (thesis p. 32, statements 126 to 140).
+    For each of the m planes that the new point is outside of, a stage appends three planes and then deletes that plane.
+    Planes inside the new hull are deleted only afterwards.  A stage that begins with L planes therefore reaches
+    L + 2m + 1 entries (thesis p. 32, statements 126 to 140).
     """
     if run.dimension < 3 or not run.history:
         return {}

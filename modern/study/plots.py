@@ -323,7 +323,7 @@ def _standing(axes: Any, chart: Chart) -> None:
 
 
 def _name_bars(axes: Any, chart: Chart, width: float, top: float) -> None:
-    """Write the name of each series upright above its highest bar; make room for the names above all bars."""
+    """Write the name of each series vertically above its highest bar; make room for the names above all bars."""
     groups = names(chart)
     axes.set_yticks([tick for tick in axes.get_yticks() if tick <= top])
     lines = [textwrap.fill(typeset(series.name), _LABEL) for series in chart.series]

@@ -93,7 +93,7 @@ def table(sheets: tuple[Sheets, ...]) -> Table:
 
 
 def needed(sheets: Sheets) -> str:
-    """Return the range of the number of data sheets among seventy sets for which two rejections are most probable."""
+    """Return how many of seventy sets must be data sheets for two to be the most probable number of rejections."""
     if not sheets.refused:
         return "-"
     low, high = (SEVENTY * bound / sheets.rate.value for bound in TWO_LIKELIEST)
@@ -101,7 +101,7 @@ def needed(sheets: Sheets) -> str:
 
 
 def likely_shares(rates: tuple[tuple[int, float], ...]) -> tuple[float, float] | None:
-    """Return the least and the greatest share of decimals for which two rejections in seventy are most probable.
+    """Return the least and the greatest share of decimals at which two of seventy sets are most probably rejected.
 
     Shares are in thousandths.  ``rates`` holds pairs (share, frequency of rejection) with ascending shares, between
     which the function interpolates linearly.  Return None if the rates do not reach both ends of the range.

@@ -293,7 +293,7 @@ def blind_restorer() -> Iterator[Restorer]:
 
 
 def summary(copies: Sequence[Copy]) -> list[tuple[str, ...]]:
-    """Return for each damage, class and ground a row with the emended cards and the wrong readings with an interval.
+    """Return a table with the number of emended cards and of wrong readings for each damage, class and ground.
 
     The last column counts the errors in copies of the listings.  For cards without a restored text, the table gives
     the number of damaged cards.  Intervals are exact 95 % intervals (Clopper and Pearson).

@@ -42,9 +42,9 @@ class Summary:
         return self.of(cell, route) - self.hits(cell, route)
 
     def sound_from(self, cell: int, route: Callable[[int], str], tried: Sequence[int]) -> int | None:
-        """Return the least number in ``tried`` such that no sample failed at this number or at a greater one, or None.
+        """Return the least number tried from which on no sample failed, or None if one failed at the greatest number.
 
-        ``tried`` is in ascending order.
+        ``tried`` has the numbers in ascending order, and ``route`` returns the route that uses a number.
         """
         least = None
         for number in reversed(tried):

@@ -122,7 +122,7 @@ def run_programs(options: argparse.Namespace) -> int:
 
 
 def run_measure(options: argparse.Namespace) -> int:
-    """Execute recorded and random statements.  Return 1 if the library or the emulator gives another result."""
+    """Execute recorded and random statements on library and emulator.  Return 1 if any two results differ."""
     deck, vectors = object_deck(), load()
     again = measure([(vector.statement, vector.cards) for vector in vectors], deck)
     changed = sum(not same(first.outcome, second.outcome) for first, second in zip(vectors, again, strict=True))

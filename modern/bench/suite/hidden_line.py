@@ -40,7 +40,7 @@ def block(count: int) -> list[Polyhedron]:
 
 
 def drawn(polyhedra: list[Polyhedron]) -> Drawing:
-    """Draw the polyhedra by steps II and III of Nakamae and Nishita, after the check that no two of them intersect."""
+    """Check that no two polyhedra intersect, and draw them without hidden lines by Nakamae and Nishita's method."""
     return draw(polyhedra, parallel(EYE))
 
 

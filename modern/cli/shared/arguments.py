@@ -83,7 +83,7 @@ def machine_arguments(parser: ArgumentParser) -> None:
 
 
 def compared_machine(parser: ArgumentParser) -> None:
-    """Add ``machine_arguments``, with a lower limit because comparing every value is slow, and ``--upcase``."""
+    """Add ``machine_arguments``, with a lower default of ``--limit`` because comparisons are slow, and ``--upcase``."""
     machine_arguments(parser)
     upcase_argument(parser)
     parser.set_defaults(limit=1_000_000)

@@ -107,7 +107,7 @@ def _to_digits(number: int | Fraction | Decimal, digits: int) -> str:
 
 
 def _with_exact(number: Fraction) -> str:
-    """Return a number as an exact decimal if that is short, otherwise as a fraction, if short, and an approximation."""
+    """Return a number as an exact decimal if short, otherwise rounded, with the exact fraction if that is short."""
     text = finite_decimal(number)
     if text is not None and len(text) <= 2 * TABLE_DIGITS:
         return text

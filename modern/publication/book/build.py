@@ -93,9 +93,9 @@ def documents() -> dict[str, str]:
 
 
 def _subjects(texts: Mapping[str, str]) -> dict[str, str]:
-    """Return the entries of the book's index by their labels in the glossary and by their names in lower case.
+    """Return the entries of the book's index, each by its label in the glossary and by its name in lower case.
 
-    For a glossary term that occurs often, only links to its label are indexed and not each occurrence of its name.
+    A glossary term that occurs often has no entry by name, so only links to its label are indexed.
     """
     terms = re.findall(r"^## (.+)$", texts[_GLOSSARY], re.MULTILINE)
     labels = [place for place in places(_GLOSSARY, texts[_GLOSSARY]) if place != label(_GLOSSARY)]

@@ -40,7 +40,7 @@ def title_and_imprint() -> str:
 
 
 def how_to_read() -> Iterator[str]:
-    """Yield the explanation of the signs of the listings, of the notes and of the references."""
+    """Yield the section that explains the signs in the listings, in the textual notes and in the references."""
     card = next(card for card in facing("program3").cards if card.place == "131+2")
     piece = card.witness[0]
     witness, rows_of_card = f"{piece.line}: {piece.text.strip()}", say(", ".join(card.rows))
@@ -69,7 +69,7 @@ def how_to_read() -> Iterator[str]:
 
 
 def made(argument: str, save: SavePicture) -> str:
-    """Return the printed form of a generated part of a page, such as ``story card``, or an empty text."""
+    """Return the book's form of a generated part of a page, such as ``story card``, or "" if the book omits it."""
     makers: dict[str, Callable[[SavePicture], str]] = {
         "story card": _card,
         "story growth": _growth,

@@ -54,7 +54,7 @@ def fitted(svg: str) -> str:
 def listings() -> Iterator[str]:
     """Yield the listings of the programs with the commentary next to the cards, each followed by its textual notes.
 
-    For a variant of a program, only the passages that contain a different card are shown.
+    For a variant of a program, only the passages in which a card differs from that program are shown.
     """
     for name in programs.NAMES:
         listing, entry = facing(name), programs.built_in(name)

@@ -76,7 +76,7 @@ _SECTION = re.compile(r"(?:Page |Sheet |Error )?(\d\S*?|E\d+)[.:]?(?= |$)")
 
 
 def _jump_list(content: list[Part]) -> str:
-    """Return a bar of links to the sections of a long page, which does not scroll away, or "" for a short page."""
+    """Return a bar of links to the sections of a long page, or "" for a short page; the bar does not scroll away."""
     parts = [part for part in content if part.heading and part.level == 1]
     if len(parts) < _LONG:
         return ""
@@ -144,7 +144,7 @@ def _write_places(app: Sphinx, exception: Exception | None) -> None:
 
 
 def _without_descriptions(app: Sphinx, environment: Any) -> None:
-    """Remove the commands from the search, which would show their descriptions as names; their sections are found."""
+    """Remove the entries of commands from the search, which finds each command by its section anyway."""
     environment.domains["commands"].data["commands"].clear()
 
 
@@ -167,9 +167,9 @@ class AccessibleTranslator(HTML5Translator):
     ) -> str:
         """Return a start tag.
 
-        A heading cell has the scope of its column, but an empty one is a data cell.  The keyboard can scroll a wide
-        table.  The caption of a table of contents is not a heading, because it has no level.  The parameters of a long
-        signature are no description list, although Sphinx writes them as ``dl``.
+        A heading cell of a table gets the scope ``col``, but an empty one becomes a data cell.  The keyboard can scroll
+        a wide table.  The caption of a table of contents is not a heading, because it has no level.  The parameters of
+        a long signature are no description list, although Sphinx writes them as ``dl``.
         """
         if tagname == "th":
             tagname, attributes = ("th", attributes | {"scope": "col"}) if node.astext() else ("td", attributes)
@@ -190,7 +190,7 @@ class AccessibleTranslator(HTML5Translator):
             self.body[-1] = self.body[-1].replace("<pre>", '<pre tabindex="0">', 1)
 
     def visit_image(self, node: nodes.Element) -> None:
-        """Link a picture to its file, which a phone can enlarge; the style inverts a picture without dark colours."""
+        """Link a picture to its file, which a phone can enlarge; the dark theme inverts it if it lacks dark colours."""
         file = Path(self.builder.srcdir) / node["uri"]
         if file.suffix == ".svg" and "prefers-color-scheme" not in file.read_text(encoding="utf-8"):
             node["classes"].append("drawing")

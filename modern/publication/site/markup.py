@@ -111,8 +111,8 @@ def stacked(html: str) -> str:
     """Prepare the tables of a page that are too wide for a phone, and return the HTML of the page.
 
     Such a table gets the class ``stacks``, and each cell gets the heading of its column as ``data-label``.  In a narrow
-    window, the style sheet shows each row of the table as a list.  On paper, it allows line breaks after no-break
-    spaces.
+    window, the style sheet shows each row of the table as a list.  On paper, the style sheet allows line
+    breaks after no-break spaces.
     """
 
     def labelled(match: re.Match[str]) -> str:

@@ -125,7 +125,7 @@ class _Group:
         return max(POWERS, key=lambda k: self.noticed[e_name(k)])
 
     def share(self, counter: Counter[str], name: str) -> Interval | None:
-        """Return a count of a method as a share of the sound runs if it counts these, otherwise of the wrong runs."""
+        """Return a method's count as a share of all runs of the kind that ``counter`` counts: sound or wrong runs."""
         of = self.sound if counter is self.alarmed or counter is self.spoiled else self.wrong
         return exact(counter[name], of) if of else None
 

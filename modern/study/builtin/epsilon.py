@@ -97,7 +97,7 @@ def _programs(name: str, epsilon: str) -> Programs:
 
 @dataclass(frozen=True, slots=True)
 class _Rows:
-    """Counts by cell and route: of outcomes, and of sets with a swallowed vertex."""
+    """Counts by cell and route: of outcomes, and of sets with a swallowed vertex (one that is lost because of e)."""
 
     counts: Summary
     swallowed: Mapping[tuple[int, str], int]
@@ -257,7 +257,7 @@ def _conclusions(plan: Plan, rows: _Rows, store: Store) -> tuple[str, ...]:
 
 
 def _same_as_port(store: Store) -> tuple[int, int]:
-    """Return how many runs of the programs agree, except in order, with the port at the same e, and of how many."""
+    """Return how many runs agree, except in order, with the port at the same e, and the number of compared runs."""
     same = of = 0
     for k in ABSOLUTE:
         alike, runs = next(
@@ -273,7 +273,11 @@ def _same_as_port(store: Store) -> tuple[int, int]:
 
 
 def _wrong_outside(plan: Plan, rows: _Rows, store: Store, below: bool) -> tuple[int, int]:
-    """Return how many sets have a wrong hull at an e below (or above) every e without failures, and of how many."""
+    """Return the number of sets with a wrong hull at a too small (or, unless ``below``, too large) e, and of all sets.
+
+    An e is too small (too large) if it is below (above) every e with which no set of the cell fails.  A cell counts
+    only if such an e without failures exists.
+    """
     wrong = of = 0
     for number, cell in enumerate(plan.cells):
         clean = rows.clean(number, taken, ABSOLUTE)

@@ -95,7 +95,7 @@ def one_point(draw: Draw, _: int) -> list[Whole]:
 
 
 def plane(draw: Draw, count: int) -> list[Whole]:
-    """Return points of a plane, which is perpendicular to an axis, as in example 4, or oblique, equally often."""
+    """Return points of a plane that is, equally often, perpendicular to an axis (as in example 4) or oblique."""
     if draw.whole(0, 1):
         axis, height = draw.whole(0, 2), draw.whole(-_SMALL, _SMALL)
         return draw.distinct(count, lambda: _replaced(_in_box(draw, _SMALL), axis, height))

@@ -53,7 +53,7 @@ def make(argument: str) -> list[Part]:
 
 
 def places() -> Iterator[Place]:
-    """Yield all entries of the Index, then the statements. Of entries with one name, the first is the best match."""
+    """Yield the entries of the Index, statements last. Of entries with the same name, the first is the best match."""
     for entries in (_subjects(), _errors(), _rows(), _names(), *map(_cards, _ORDER)):
         yield from entries
     for document in DOCUMENTS:

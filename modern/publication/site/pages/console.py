@@ -63,7 +63,7 @@ def _statement_link(divergence: str) -> str:
 
 
 def _worked(points: tuple[tuple[str, ...], ...]) -> str:
-    """Return for each of four points the exact value that the equation of the plane through the others has at it."""
+    """Return as HTML, for each of four points, its exact value in the equation of the plane of the other three."""
     exact = [coordinates(point) for point in points]
     rows = []
     for out in range(4):

@@ -105,7 +105,7 @@ def _everywhere(listing: Facing) -> str:
 
 
 def _difference(card: Card) -> str:
-    """Return the key of :data:`SIGNS` for a card, or an empty string if it equals the witness."""
+    """Return how a card differs from the witness, as a key of :data:`SIGNS`, or an empty string if it does not."""
     if not card.witness:
         return "ours"
     if card.changed or any(piece.changed for piece in card.witness):
