@@ -37,7 +37,7 @@ class FileError(EmulatorError):
 class CardError(EmulatorError):
     """Raised for an invalid card: a character that no card can hold, too many columns, or a field without a number.
 
-    ``unit`` is the unit of the source in messages: a card or a typed line.
+    ``unit`` is the name by which messages call a line of the source, such as ``card`` or ``line``.
     """
 
     def __init__(self, source: str, card: int, column: int, message: str, unit: str = "card") -> None:

@@ -2,7 +2,7 @@
 
 ``import hull1620`` is fast, because each name is loaded on first use.
 
-- ``convex_hull`` computes the hull of points by Butler's procedure in any arithmetic; ``exact_hull`` proves its hull.
+- ``convex_hull`` computes a hull by Butler's procedure in any arithmetic; ``exact_hull`` proves an exact hull.
 - ``Hull`` is the result of both functions, with numpy arrays, exact volume and area, drawings and files.
 - ``digital_hull`` fills the hull of voxels; ``voxel_hull`` computes their exact hull in physical coordinates.
 - ``read_volume`` reads voxels from a file, such as NRRD, NPY, NIfTI or DICOM.

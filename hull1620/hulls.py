@@ -56,7 +56,7 @@ def convex_hull(
     translate : bool, optional
         Move the origin to a point C inside the hull first, as chapter 7 of the thesis proposes.
     history : bool, optional
-        Record the approximations H1, H2, ...
+        Keep the growing hulls H1, H2, ... of the procedure in ``Hull.history``.
     fast : bool, optional
         Use (True) or do not use (False) compiled kernels for ``float64`` and ``float32``, which need the extra
         ``fast``.  The default uses them for many points.

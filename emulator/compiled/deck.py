@@ -1,10 +1,10 @@
-"""Run a whole deck in compiled code, from its first card to its end: the kernel together with the devices.
+"""Run a whole deck in compiled code, with the kernel (the loop over object code) and the devices.
 
 The engine supports READ, PUNCH, PRINT and TYPE with any FORMAT, SQRT, integer powers, error codes, PAUSE and the
 normal endings.  If a run needs anything else, it ends with NOT_HERE, and the caller runs the deck again on a
-:class:`emulator.machine.machine.Machine`.  This is necessary for library functions other than SQRT, for ACCEPT, for a
-field without a number or with one that needs a remark, for a record that is too long, for a list that does not fit its
-FORMAT, and for a deck that ends within a data set.
+:class:`emulator.machine.machine.Machine`.  The reasons are: a library function other than SQRT, ACCEPT, a card field
+with no number or with one that needs a warning, a record that is too long, a list that does not fit its FORMAT, and a
+deck that ends within a data set.
 
 The functions use only the part of Python that numba compiles.
 """
@@ -56,7 +56,7 @@ def run_decks(
     rules: Rules,
     setting: Setting,
 ) -> int:
-    """Run the decks in order until the log is full, and return the number of decks that were completed.
+    """Run the decks in order until the devices' log is full, and return the number of decks that were completed.
 
     The caller must call the function again, with an empty log, for the remaining decks.
     """

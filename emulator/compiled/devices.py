@@ -1,9 +1,9 @@
 """Card reader, card punch and typewriter on integers only: input and output by FORMAT with character codes.
 
 These functions do the same as emulator/machine/devices.py and emulator/machine/forms.py, for runs without an operator.
-They use only the part of Python that numba compiles.  Every sequence in the tuples is a flat array of integers or ASCII
-codes.  The devices write a log with one line for each operation: a letter (BEGUN, TAKEN, PUNCHED or TYPED) and the text
-without trailing blanks.  A function returns GO_ON, or the reason why the run ends.
+They use only the part of Python that numba compiles.  Their arguments are named tuples of flat arrays of integers or
+ASCII codes.  The devices write a log with one line for each operation: a letter (BEGUN, TAKEN, PUNCHED or TYPED) and
+the text without trailing blanks.  A function returns GO_ON, or the reason why the run ends.
 """
 
 from collections.abc import Sequence
@@ -65,7 +65,7 @@ STAMP = 6
 # The tuples below group the arrays so that each function receives only the arrays that it needs: numba passes an array
 # as seven or more numbers in every call.
 class Marks(NamedTuple):
-    """Parts of the object code, for the devices: the verbs, and second operand and statement of each instruction."""
+    """The parts of the object code that devices use: verbs, second operands, and the statement of each instruction."""
 
     seconds: Row
     statements: Row
@@ -73,7 +73,7 @@ class Marks(NamedTuple):
 
 
 class Code(NamedTuple):
-    """The object code, its parts that devices use, and a number for each library function: 1 for SQRT, otherwise 0."""
+    """The object code, the parts of it that devices use, and for each library function 1 if it is SQRT, else 0."""
 
     flat: Flat
     marks: Marks
@@ -81,7 +81,7 @@ class Code(NamedTuple):
 
 
 class Forms(NamedTuple):
-    """The FORMAT statements (FORM numbers for each), their specifications (PART numbers for each), and their texts."""
+    """The FORMAT statements as FORM integers each, their specifications as PART integers each, and their texts."""
 
     formats: Row
     specs: Row
@@ -131,7 +131,7 @@ class Report(NamedTuple):
 
 
 def begin(marks: Marks, forms: Forms, cards: Cards, desk: Desk) -> int:
-    """Begin an input or output statement: find its FORMAT, and on input take the first card."""
+    """Begin an input or output statement: find its FORMAT, and for a READ take the next card from the hopper."""
     devices, pc = desk.devices, desk.registers[AT]
     verb = marks.verbs[desk.registers[ADDRESS]]
     number = marks.seconds[pc]
@@ -188,7 +188,7 @@ def to_field(marks: Marks, forms: Forms, cards: Cards, desk: Desk, repeat: bool)
 
 
 def text(place: int, width: int, cards: Cards, desk: Desk) -> int:
-    """Write the text of an H or X field.  On input, store the card's columns as the field's text (C26-5619 p. 37)."""
+    """On output, write the text of an H or X field.  On input, store a card's columns as its text (C26-5619 p. 37)."""
     devices = desk.devices
     column = devices[COLUMN]
     devices[COLUMN] += width
@@ -211,8 +211,8 @@ def too_long(devices: Row) -> bool:
 def finish(marks: Marks, forms: Forms, cards: Cards, desk: Desk) -> int:
     """End an input or output statement: process the rest of its FORMAT and write the last record.
 
-    If the FORMAT has an unused field, the library of 1962 writes no last record that is empty.  For a statement without
-    a list, it then writes no last record at all.
+    If a field of the FORMAT is unused, IBM's library of 1962 does not write the last record if it is empty or if the
+    statement has no list.
     """
     devices = desk.devices
     is_input = devices[VERB] == READ
@@ -228,7 +228,7 @@ def finish(marks: Marks, forms: Forms, cards: Cards, desk: Desk) -> int:
 
 
 def finish_list(marks: Marks, forms: Forms, cards: Cards, desk: Desk) -> int:
-    """End a READ with a list as IBM's library of 1962 does: a slash before an unused field reads no card."""
+    """End a READ with a list as IBM's library of 1962 does: a slash just before an unused field reads no card."""
     devices, specs = desk.devices, forms.specs
     status = GO_ON
     while status == GO_ON and devices[SPEC] < devices[LAST_SPEC]:
@@ -246,12 +246,12 @@ def finish_list(marks: Marks, forms: Forms, cards: Cards, desk: Desk) -> int:
 
 
 def column_of(cards: Cards, card: int, column: int) -> int:
-    """Return a column of a card, counted from 0, or a blank beyond its end."""
+    """Return the character code in a column of a card, counted from 0, or a blank beyond the last column."""
     return cards.columns[card * COLUMNS + column] if column < COLUMNS else BLANK
 
 
 def end_record(marks: Marks, cards: Cards, desk: Desk) -> int:
-    """End a record: advance to the next card, or write the line without trailing blanks to the log."""
+    """End a record: on input take the next card, on output write the record without trailing blanks to the log."""
     devices = desk.devices
     length = devices[COLUMN]
     devices[COLUMN] = 0
@@ -297,7 +297,7 @@ def put(letter: int, line: Row, length: int, desk: Desk) -> int:
 
 
 def put_typed(line: Row, length: int, marks: Marks, desk: Desk) -> int:
-    """Write a typed line to the log: the numbers of its statement and of the last decision, and its text."""
+    """Write a typed line to the log: the number of its statement, the number of the last decision, and the text."""
     registers, log, used = desk.registers, desk.log, desk.devices[USED]
     if used + length + 2 + 2 * STAMP > len(log):
         return LOG_FULL

@@ -140,9 +140,9 @@ def _or(largest: Number, divide: _Operation) -> _Operation:
 
 
 def _follow(tape: Tape, values: list[Any], functions: Sequence[_Operation], negate: Callable[[Any], Any]) -> None:
-    """Repeat the operations of a tape with the functions for ADD, SUBTRACT, MULTIPLY and DIVIDE, and for NEGATE.
+    """Repeat the operations of a tape on ``values``, which holds the input numbers and receives the results.
 
-    ``values`` holds the input numbers and receives the results.
+    ``functions`` are those for ADD, SUBTRACT, MULTIPLY and DIVIDE, and ``negate`` is the function for NEGATE.
     """
     named = dict(zip((ADD, SUBTRACT, MULTIPLY, DIVIDE), functions, strict=True))
     for k, (operation, i, j) in enumerate(zip(tape.operations, tape.firsts, tape.seconds, strict=True)):

@@ -1,7 +1,7 @@
-"""The compiled engine for one program: it runs decks of packed cards and returns counts and a log for each deck.
+"""The compiled engine for one program, which runs decks of character codes and returns counts and a log for each deck.
 
-numba compiles :func:`emulator.compiled.deck.run_decks` and the functions it calls without changes.  Numbers have at
-most nine digits, because products must fit into 64 bits.
+numba compiles the unchanged Python code of :func:`emulator.compiled.deck.run_decks` and of the functions that it calls.
+Numbers have at most nine digits, because products must fit into 64 bits.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -61,7 +61,7 @@ def why_plain(options: Options) -> str:
 
 @cache
 def run_decks() -> Compiled:
-    """Return :func:`emulator.compiled.deck.run_decks` for compilation.  Raise NotInstalled if numba cannot be used."""
+    """Return ``deck.run_decks`` prepared for compilation.  Raise NotInstalled if numba cannot be used."""
     # The code never divides by zero, so numba need not check divisors (error_model).  It creates no arrays, so numba
     # need not count references to them (_nrt).  The second option is documented only in
     # numba.extending.register_jitable; without it a run takes a sixth longer, because every call counts each of its
@@ -70,7 +70,7 @@ def run_decks() -> Compiled:
 
 
 def must_compile() -> bool:
-    """Return True if the engine can be compiled but has not been compiled yet, so that the interpreter is faster."""
+    """Return True if numba is available but has not compiled the engine yet.  The interpreter is faster until then."""
     try:
         return run_decks().must_compile
     except NotInstalled:
@@ -93,7 +93,7 @@ def packed(deck: Deck) -> bytes | None:
 def packed_text(text: str) -> bytes | None:
     """Return 80 character codes for each card of a deck's text, or None if the interpreter must read the text.
 
-    This concerns texts with record marks, invalid characters or too many cards.
+    The interpreter must read texts with record marks, invalid characters or too many cards.
     """
     lines = text.replace("\r\n", "\n").split("\n")
     if lines[-1] == "":
@@ -177,7 +177,7 @@ class Runner:
         self.kernel = run_decks().ready(*self._arguments([]))
 
     def runs(self, packed: Sequence[bytes | None]) -> Iterator[Run | None]:
-        """Yield the run of each of at most BLOCK decks, or None for a deck that only the interpreter can run."""
+        """Yield a run for each deck, or None if only the interpreter can run the deck.  Accept at most BLOCK decks."""
         at = 0
         while at < len(packed):
             # A deck that could not be packed is passed as an empty deck, to keep the order.

@@ -41,7 +41,7 @@ class Compiled:
     def __init__(self, entry: Function, **options: Any) -> None:
         """Prepare ``entry`` for compilation with the given options of numba.
 
-        Raise NotInstalled if numba is missing or NUMBA_DISABLE_JIT is set.  Python must not run these functions on
+        Raise NotInstalled if numba is missing or NUMBA_DISABLE_JIT is set.  The functions must not run uncompiled on
         NumPy arrays, because eight-bit elements would overflow and change the results.
         """
         numba = require_numba()
@@ -68,7 +68,7 @@ class Compiled:
 
     @property
     def must_compile(self) -> bool:
-        """True if :meth:`ready` would now have to compile the function and would keep the compiled code."""
+        """True if :meth:`ready` would now have to compile the function and would keep the result in the cache."""
         return self.keeps and not self.kept and not self.function.overloads
 
     def ready(self, *arguments: Any) -> Function:

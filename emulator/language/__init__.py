@@ -16,12 +16,12 @@ To add a kind of statement:
    with the statement, and an entry of ``_EFFECTS`` if a trace should show its effect.  mypy reports an error until the
    case exists.
 7. ``emulator/translation/steps.py`` and ``writers.py``: a step, if the statement needs a new operation.
-8. Only if no operation fits: a name and its meaning in ``objectcode.py`` (``MEANINGS`` and the names below it in the
-   same order, and ``flatten`` if it branches), its action in ``emulator/machine/interpreter.py``, or in
-   ``session.py`` or ``devices.py`` if it concerns the operator or a device, the same in ``emulator/compiled/kernel.py``
-   or ``NOT_HERE`` in ``emulator/compiled/deck.py``, and its time in ``emulator/machine/timing.py``.  An operation that
-   branches also needs a case in ``successors`` of ``control_flow.py`` and, if it has several targets, an entry in
-   ``_DECISIONS`` of ``emulator/machine/comparison.py``.
+8. Only if no existing operation fits, add one.  Its name and meaning belong in ``objectcode.py`` (``MEANINGS``, and the
+   names below it in the same order).  Its action belongs in ``emulator/machine/interpreter.py``, or in ``session.py``
+   or ``devices.py`` if it concerns the operator or a device.  ``emulator/compiled/kernel.py`` repeats the action, or
+   ``emulator/compiled/deck.py`` returns ``NOT_HERE``.  Its time belongs in ``emulator/machine/timing.py``.  If it
+   branches, it also needs cases in ``flatten`` and in ``successors`` of ``control_flow.py``, and with several targets
+   an entry in ``_DECISIONS`` of ``emulator/machine/comparison.py``.
 9. Tests: ``tests/emulator/language/`` (``test_statements.py``, ``test_parser.py``, ``test_compiler_code.py``,
    ``test_compiler_messages.py``), ``tests/emulator/test_period.py``, which runs programs on both engines, and
    ``tests/support/decks_at_random.py``.

@@ -1,4 +1,4 @@
-"""Generate code for expressions, in the order of operations that determines the sign of every zero result.
+"""Generate code for expressions, in a fixed order of operations, on which the sign of every zero result depends.
 
 The order was determined from the object code of PDQ FORTRAN.  It agrees with every zero that the thesis prints and with
 the only known program that IBM's compiler of 1962 compiled.  Operations run from left to right (C26-5619 p. 19).  If
@@ -71,7 +71,7 @@ class Emitter:
         self.modes.clear()
 
     def group(self) -> None:
-        """Number a finished product or parenthesized sum, whose value is in the accumulator, within its statement."""
+        """Give the product or parenthesized sum that is now in the accumulator the next number in its statement."""
         self.held, self.groups = self.groups, self.groups + 1
 
     def temporary(self) -> Operand:
@@ -236,8 +236,8 @@ class Emitter:
         Return True if the accumulator then holds the negative of the result.
 
         ``waiting`` is the left operand while it is in a field.  A right operand that must be computed needs the
-        accumulator, so the left operand stays in a field, if necessary a temporary one, and the operation is reversed.
-        ``minus`` is True if the left operand has the wrong sign, ``negative`` if the right operand has.
+        accumulator, so the left operand stays in a field, if necessary a temporary one, and is then combined with the
+        accumulator.  ``minus`` is True if the negative of the left operand is held, ``negative`` if that of the right.
         """
         first, minus = _unsigned(expression.first)
         minus ^= isinstance(expression, Sum) and expression.minus

@@ -17,9 +17,9 @@ class ForeignStatement:
     """A statement of another FORTRAN: its name in messages, the language it belongs to, and a replacement for it.
 
     ``has_body`` is True if the cards after the statement, up to an END, belong to it.  ``declares`` is ``all`` if the
-    statement may declare each of its names as an array, as a function or with a type.  Other statements with such a
-    name cannot be checked.  It is ``(`` if this holds only for names followed by a parenthesis.  ``number`` is IBM's
-    error type, or 0.
+    statement may declare each of its names as an array, as a function or with a type, ``(`` if only the names followed
+    by a parenthesis, and otherwise empty.  Other statements with a declared name cannot be checked.  ``number`` is
+    IBM's error type, or 0.
     """
 
     name: str

@@ -27,7 +27,7 @@ _KINDS: dict[str, FieldKind] = {"E": "E", "F": "F", "I": "I"}
 
 @dataclass(frozen=True, slots=True)
 class Literal:
-    """Text in a FORMAT that is not a number: ``wH`` gives w characters, ``wX`` (``skip`` is set) w blanks."""
+    """Text in a FORMAT: w characters for ``wH``, or w blanks for ``wX``.  ``skip`` is True for ``wX``."""
 
     text: str
     skip: bool = False

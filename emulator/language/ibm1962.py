@@ -1,7 +1,8 @@
 """The interface of IBM's library of 1962: entry points, and the digits of numbers, FORMATs and calls in core storage.
 
 The facts were found by running the library in a simulator with hand-written object code
-(docs/reference/ibm-library.md).  A position of core storage is an integer: its digit, plus FLAG if it has a flag.
+(docs/reference/ibm-library.md).  A position of core storage is an integer: its digit, plus FLAG if it has a flag, the
+bit that marks a minus sign or the left end of a field.
 """
 
 import re
@@ -109,8 +110,8 @@ def _literal(item: Literal) -> Iterator[list[int]]:
 def call(entry: int, address: int = 0) -> list[int]:
     """Return the twelve positions of an instruction that calls a library routine (BTM) or an input/output verb (BT).
 
-    A call transmits its operand to the position before the entry.  A routine that works on FAC alone has no operand.
-    It is called by BT with the position before the entry as the operand, so that nothing is transmitted.
+    A call copies its operand to the position before the routine's entry.  A routine that works on FAC alone has no
+    operand.  A BT calls it with the position before the entry as the operand, so the copy changes nothing.
     """
     if entry in ALONE.values():
         return [int(digit) for digit in f"27{entry:05}{entry - 1:05}"]

@@ -105,7 +105,7 @@ def repeats(instruction: Instruction) -> int:
 def element_after(element: int, second: int) -> int:
     """Return the number of the array element that a list transfers after ``element``, or 0 after the last one.
 
-    ``second`` is the second operand of the ITEM instruction, the number of elements.
+    ``second`` is the second operand of the ITEM instruction: the number of elements, negative for fixed point.
     """
     return element + 1 if element + 1 < abs(second) else 0
 
@@ -117,7 +117,7 @@ LIST_PASS, LIST_REST = "pass of the list", "rest of the list"
 
 @dataclass(frozen=True, slots=True)
 class Counter:
-    """The meaning of a COUNT instruction: the beginning of a statement, or of a part that is executed separately.
+    """The meaning of a COUNT instruction: here a statement begins, or a part of it with its own count of executions.
 
     ``statement`` is an index into :attr:`Program.statements`.  ``begins`` is True at the beginning of the statement,
     and False for the closing of a DO or the body of an indexed list.
@@ -212,8 +212,8 @@ class Flat(NamedTuple):
     The first four sequences have one entry per instruction: operation, address, index into ``table`` (-1 without a
     subscript), and second operand.  ``table`` holds v1, c1, o1, rows, v2, c2, o2 and columns of each subscript.
     ``targets`` holds the branch tables, each preceded by its length.  ``loops`` holds four numbers per loop: variable,
-    step, limit, and first instruction.  ``begins`` is 1 for a counter at which a statement begins, 2 for a pass of an
-    indexed list, and 0 for others.  ``charges`` is the amount that a counter adds to the work of the run: 1 if
+    step, limit, and first instruction.  ``begins`` holds 1 for each counter at which a statement begins, 2 for each at
+    a pass of an indexed list, and 0 for others.  ``charges`` holds what each counter adds to the work of the run: 1 if
     ``begins`` is not 0, and 1 more for every STEPS operations up to the next counter (emulator/numbers/work.py).
     ``fields`` is the number of fields that a subscript may reach.
     """

@@ -151,7 +151,8 @@ def _foreign_message(place: tree.Place, foreign: ForeignStatement) -> Diagnostic
 def _statement_function(body: tree.Body, arrays: Collection[str]) -> str:
     """Return the name of the function that an assignment such as ``F(X) = X+1.`` defines, or an empty string.
 
-    All arguments are names, and at least one name is floating point, so that ``F(X)`` cannot be an array element.
+    All arguments must be names, one of them of a floating-point variable: ``F(X)`` then cannot be an array element,
+    because subscripts are fixed point.
     """
     if not isinstance(body, tree.Assignment) or not body.target.arguments or body.target.name in arrays:
         return ""

@@ -59,7 +59,7 @@ def is_control_card(card: Card) -> bool:
 
 
 def statement_columns(card: Card, first: int = 1) -> str:
-    """Return columns ``first`` to 72 of a card, blank from a record mark on, which ends a statement."""
+    """Return columns ``first`` to 72 of a card, with blanks from a record mark on, which ends the statement."""
     text = card.columns(first, LAST_COLUMN)
     mark = None if is_control_card(card) else RECORD_MARK.search(text)
     return text[: mark.start()].ljust(len(text)) if mark else text
@@ -94,7 +94,7 @@ def may_be_comment(source: Source) -> bool:
 
 
 def resembles_statement(card: Card) -> bool:
-    """Return True if a comment begins like CONTINUE, COMMON or CALL: the card may be a statement in column 1."""
+    """Return True if a comment begins like CONTINUE, COMMON or CALL: it may be a statement punched from column 1 on."""
     text = card.columns(1, LAST_COLUMN).replace(" ", "")
     return not card.text.ljust(3).startswith("C  ") and text.startswith(("CONTIN", "COMMON", "CALL"))
 

@@ -168,7 +168,7 @@ class Comparison:
         return f"at card {card} the value in {name} is {text}, which rounding may have changed by {size}; {remedy}"
 
     def _lost(self, entry: Entry, reference_entry: Entry) -> tuple[float | None, float | None, bool]:
-        """Return the digits lost, the relative difference, and True if the reference's rounding explains them.
+        """Return the digits lost, the relative difference, and True if the reference's rounding explains a difference.
 
         The digits and the relative difference are None if the values are equal or rounding explains their difference.
         """

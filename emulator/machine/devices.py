@@ -346,5 +346,5 @@ class Devices:
         self.notices[notice] = None
 
     def ending(self, kind: Kind) -> Ending:
-        """Return the description of an end of the run, of the given kind, at the current statement."""
+        """Return the data of an ending of the given kind, for a run that ends at the current statement."""
         return stopped(self.program, kind, self.state.at, self.state.decision)

@@ -39,7 +39,7 @@ class Ending:
       variable's value.
     - mode: the ``name`` of the field and the ``mode`` of its number.  If ``format`` holds the number of a FORMAT,
       ``field`` is its specification that does not fit the number, or None if the FORMAT has no fields.
-    - record: ERROR F9 of IBM's library of 1962; ``format`` holds the number of the FORMAT.
+    - record: a record too long for IBM's library of 1962 (ERROR F9); ``format`` holds the number of its FORMAT.
     - undecided: ``trouble`` says what the numbers cannot decide.
     - input: ``trouble`` says what is wrong with the deck.
     - operator: the operator stopped the run; ``trouble`` says so.
@@ -203,7 +203,7 @@ def stopped(program: Program, kind: Kind, at: int, decision: int) -> Ending:
 
 
 def decided(program: Program, decision: int) -> Line | None:
-    """Return the IF or computed GO TO with the number ``decision``, counting instructions from 1, or None for 0."""
+    """Return the IF or computed GO TO at instruction ``decision``, counted from 1, or None if ``decision`` is 0."""
     return program.line_at(decision - 1) if decision else None
 
 

@@ -56,7 +56,7 @@ class _Walk(ABC):
     again: int = field(default=0, init=False)
 
     def _to_field(self) -> Field:
-        """Advance to the next number field and return it.  At its end, the FORMAT begins again.  Raise NoField."""
+        """Return the next number field; at its end the FORMAT begins again.  Raise NoField if it has no such field."""
         spec = self._advance()
         while spec is None:
             if not self.layout.spec.has_fields:
@@ -107,7 +107,7 @@ class Output(_Walk):
     _parts: list[str] = field(default_factory=list)
 
     def next_field(self) -> Field:
-        """Write text and complete records up to the next number field, and return the field.  Raise NoField."""
+        """Write text and complete records up to the next number field, and return it.  Raise NoField if none exists."""
         return self._to_field()
 
     def write(self, columns: str) -> None:
@@ -137,7 +137,7 @@ class Input(_Walk):
     column: int = 1
 
     def next_field(self) -> tuple[Field, Card, int]:
-        """Return the next number field of the FORMAT, its card and its first column.  Raise NoField."""
+        """Return the next number field, its card and its first column.  Raise NoField if the FORMAT has none."""
         spec = self._to_field()
         column = self.column
         self.column += spec.width
@@ -183,7 +183,7 @@ class Output1962(Output):
     def end_before(self, width: int, exponent: str) -> str:
         """End the record at a number that is in error, and return the columns that precede the error code.
 
-        A blank record is not ended.  The next record begins with blanks up to the end of the number's field.
+        A blank record is not written.  The next record begins with blanks up to the end of the number's field.
         ``exponent`` is the text that the library has already stored at the end of a too narrow E field.  It remains in
         a punched record, but a typed line ends before it.
         """
@@ -218,7 +218,7 @@ class Output1962(Output):
 class Input1962(Input):
     """The execution of an input statement that ends as in IBM's library of 1962.
 
-    ``room`` is the number of columns of the device.
+    A slash just before an unused field then reads no record.  ``room`` is the number of columns of the device.
     """
 
     room: int = field(kw_only=True)

@@ -184,9 +184,8 @@ class FromFile(Operator):
 class Logged(Operator):
     """An operator whose actions are logged to a file, with the events of the machine as comments.
 
-    With the same program and deck, :class:`FromFile` repeats the run from the log and produces the same log.  A LOAD
-    line names the deck as ``deck_name``, or without this argument as the session does.  A name of several words is left
-    out.
+    With the same program and deck, :class:`FromFile` repeats the run from the log and produces the same log.  The LOAD
+    line contains ``deck_name``, by default the session's name of the deck, unless this name contains a blank.
     """
 
     def __init__(self, operator: Operator, file: TextIO, deck_name: str | None = None) -> None:

@@ -59,7 +59,7 @@ Uncut = tuple[int, int, Number]
 
 @dataclass(frozen=True, slots=True)
 class MachineError:
-    """An error code of a run, the card of its statement, and the number of its occurrences on this card.
+    """An error code of a run, the card of the statement that caused it, and the number of times this happened.
 
     :func:`emulator.errors.explanations` explains the codes.
     """
@@ -101,7 +101,7 @@ class Result:
     numbers
         Pairs of a kind of field and the count of numbers it read (``E<``) or wrote (``E>``).
     uncut
-        With the option of this name, the floating-point numbers of each punched card.
+        With the option ``uncut``, the floating-point numbers of each punched card with all their digits.
     """
 
     punched: tuple[str, ...]

@@ -30,8 +30,8 @@ class Halt:
 
     - accept: the ACCEPT statement ``line`` needs a typed line.  ``trouble`` says why the previous one was rejected.
     - pause: ``line`` is a PAUSE with ``number``.
-    - stop: the machine has stopped before ``line`` for the reason ``why``: attention, step, breakpoint, or the name of
-      a variable that has changed.
+    - stop: the machine has stopped before ``line`` for the reason ``why``: ``attention``, ``step``, ``breakpoint``, or
+      for example ``NE has changed``, which names a variable.
     """
 
     what: Literal["accept", "pause", "stop"]

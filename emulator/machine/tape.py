@@ -5,8 +5,8 @@ branches that the machine took, even if the other arithmetic would decide differ
 separately: the value that it tests is known in every arithmetic, after the same operations (synchronous execution; J.
 Vignes, A stochastic arithmetic for reliable scientific computation, Math. Comput. Simulation 35 (1993) 233-261).
 
-The tape holds sums, differences, products, quotients and changes of sign.  A number read from a card, a constant and a
-converted integer is a leaf, which every arithmetic holds exactly as the machine holds it.
+The tape holds sums, differences, products, quotients and changes of sign.  Numbers read from cards, constants and
+converted integers are its leaves: every arithmetic begins with the values that they have in the machine.
 """
 
 from __future__ import annotations

@@ -100,7 +100,7 @@ class Time:
 
 
 def modelled(seconds: float, cause: str = "") -> Time:
-    """Return a time of the processor, with the systematic error for its row of the time table, ``cause``."""
+    """Return a processor time with the model's systematic error for the row ``cause`` of the time table."""
     low, high = CONVERSION_MODEL if cause == CONVERSION else MODEL
     return Time(seconds, low * seconds, high * seconds)
 

@@ -31,7 +31,7 @@ MIN_DIGITS, MAX_DIGITS = 2, 28
 class Rules(NamedTuple):
     """The rules of a decimal arithmetic.  Every field is an integer, because compiled code uses them too.
 
-    The fields from ``sticky`` on are flags, 0 or 1.
+    The fields from ``sticky`` to ``as_1962`` are flags, 0 or 1.
 
     - ``digits``: the number of digits of a mantissa, P.
     - ``limit``: ``10**P``, which every mantissa is below.

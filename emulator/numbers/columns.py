@@ -27,10 +27,10 @@ def squeeze(columns: MutableSequence[int], width: int) -> tuple[int, int]:
     """Move the characters of a number to the left end of its field and remove blanks.  Return length and status.
 
     Leading blanks are ignored.  In a number without point and exponent, all other blanks count as zeros.  In a number
-    with a point or an exponent, trailing blanks are ignored.  Inner blanks are dropped if one of them may belong to an
-    exponent; otherwise they count as zeros (OPEN-QUESTIONS 6).  An exponent may begin at an E, or at a sign after the
-    first character.  A blank may belong to it if the blank follows the first such character, or stands between the
-    point and the last such character.
+    with a point or an exponent, trailing blanks are ignored.  Its inner blanks count as zeros, unless one of them may
+    belong to an exponent: then all are dropped (OPEN-QUESTIONS 6).  An E may begin an exponent, and so may a sign after
+    the first character; call both marks.  A blank may belong to an exponent if it follows the first mark, or if it is
+    between the point and the last mark.
     """
     first = 0
     while first < width and columns[first] == BLANK:
@@ -84,7 +84,7 @@ def is_digit(code: int) -> bool:
 
 
 def read_floating(columns: MutableSequence[int], width: int, decimals: int, rules: Rules) -> tuple[int, int, int]:
-    """Read an E or F field.  Return mantissa, exponent and status.  The columns are squeezed in place.
+    """Read an E or F field.  Return mantissa, exponent and status.  :func:`squeeze` changes the columns.
 
     The field holds a sign, digits with or without a point, and an exponent, which may omit its E if it has a sign.
     """

@@ -26,8 +26,8 @@ LEADING, MANTISSA, EXPONENT = range(3)
 def low_digit(code: int) -> int:
     """Return the digit that IBM's library reads from a character inside a number, or -1 if it rejects the character.
 
-    The two-digit code of a blank, of $, ) or * is below the code of the minus sign.  Of these codes the library uses
-    the low digit.
+    The library also accepts a blank, $, ) and *, because their two-digit codes are below the code of the minus sign.
+    It then reads the second digit of the code.
     """
     if DIGIT <= code <= DIGIT + 9:
         return code - DIGIT
@@ -152,7 +152,7 @@ def write_f(
 def fill(
     columns: MutableSequence[int], at: int, end: int, mantissa: int, count: int, point: int, right: int, rules: Rules
 ) -> None:
-    """Write the first ``count`` digits of a mantissa, right-justified before ``right``, with the point at ``point``.
+    """Write ``count`` digits of a mantissa, ending before column ``right``, with a point in column ``point``.
 
     Zeros fill the columns between the point and the digits.  Other columns of the field become blank.
     """

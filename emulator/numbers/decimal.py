@@ -30,7 +30,7 @@ Pair = tuple[int, int]
 
 
 def _operation(rule: Callable[[int, int, int, int, Rules], State]) -> Callable[..., Pair]:
-    """Return the method that calls a function of ``accumulator.py``, and raises Trap if this returns an event."""
+    """Return a method that calls a function of ``accumulator.py``, and raises Trap if the event returned is not 0."""
 
     def method(self: DecimalNumbers, first: Pair, second: Pair) -> Pair:
         m, e, event = rule(first[0], first[1], second[0], second[1], self._drawn)

@@ -163,12 +163,12 @@ def write_fixed_as_1962(field: Field, value: int) -> str:
 
 
 def read_fixed_as_1962(text: str) -> FieldNumber:
-    """Read an I field as IBM's library of 1962 does.  Raise FieldError if the library would type ERROR F7."""
+    """Read an I field as IBM's library of 1962 does.  Raise FieldError if the library rejects it with ERROR F7."""
     return read_as_1962(Field("I", len(text)), text, rules_of(8))
 
 
 def read_as_1962(field: Field, text: str, rules: Rules) -> FieldNumber:
-    """Read an E, F or I field as IBM's library of 1962 does.  Raise FieldError if the library would type ERROR F7."""
+    """Read an E, F or I field as IBM's library of 1962 does.  Raise FieldError if the library rejects it (ERROR F7)."""
     kind = "EFI".index(field.kind)
     codes = text.encode("ascii", "replace")
     mantissa, exponent, status = columns1962.read_number(bytearray(codes), len(codes), field.decimals, kind, rules)

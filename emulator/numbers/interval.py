@@ -28,7 +28,7 @@ _RANGE = 10**4
 
 
 def _within_range(operation: Callable[..., Any]) -> Callable[..., Any]:
-    """Return the operation with overflows raised as Undecided, in a message that states the range of numbers."""
+    """Return a function that does the operation, and on overflow raises Undecided with the range of numbers."""
 
     @wraps(operation)
     def checked(*operands: Any) -> Any:

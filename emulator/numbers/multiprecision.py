@@ -115,7 +115,7 @@ class MultiprecisionNumbers(Numbers):
         return getattr(context, name.lower())(value), ""
 
     def _exponential(self, value: Any) -> tuple[Any, str]:
-        """Return EXP of a number and its error code.  A result far out of range is not computed."""
+        """Return EXP of a number, and an error code or "".  A result far out of range becomes infinity or 0."""
         if value > MAX_POWER:
             return self._infinity, "F4"
         if value < -MAX_POWER:

@@ -79,7 +79,7 @@ def student(degrees: int) -> float:
 
 @cache
 def chi_square(degrees: int) -> float:
-    """Return the 2.5 % quantile of the chi-square distribution."""
+    """Return the 2.5 % quantile of the chi-square distribution with this many degrees of freedom."""
     from mpmath import gammainc
 
     return _root(lambda x: gammainc(degrees / 2, 0, x / 2, regularized=True), (1 - _LEVEL) / 2)
