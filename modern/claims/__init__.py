@@ -7,8 +7,8 @@ package that names the row, or a published *result* (:mod:`modern.claims.publish
 To add a verdict on a statement:
 
 1. Add a row to ``transcripts/statements/DOCUMENT.toml`` at its place in the order of the document, with the next unused
-   number, under the name ``[NUMBER.PAGE]``.  ``words`` quotes at most eight words of the OCR text.  The
-   field that gives a reason names the verdict (``condition``, ``fails``, ...); a row without such a field holds.
+   number, under the name ``[NUMBER.PAGE]``.  ``words`` quotes at most eight words of the OCR text.  The field that
+   gives the reason also states the verdict (``condition``, ``fails``, ...); a statement without such a field holds.
 2. Write a check in the module of ``modern/claims/DOCUMENT/`` that deals with the subject: a function with the decorator
    ``claim`` that returns a :class:`~modern.claims.evidence.Check`.  Choose the constructor by what is computed:
    ``proved``, ``exhausted``, ``searched`` or ``search``, ``exhibited``, ``refuted``, ``slip``.  Sampled sets and
@@ -23,9 +23,9 @@ To add a verdict on a statement:
    automatic alteration changes it, add a spoiler to ``BY_HAND`` in ``test_spoiled_claims.py``.
 6. Run ``hull1620 reproduce DOCUMENT.NUMBER``.
 
-A row without a check has the verdict "used", with the name of the code that follows it in ``code``, or "not
-testable", with a reasoned sentence in ``untested``. A row that repeats another one names its number in ``same`` and
-has no verdict.
+A row without a check has the verdict "used", and its field ``code`` names the code that follows the statement, or the
+verdict "not testable", and its field ``untested`` gives the reason. A row that repeats another one names its number in
+``same`` and has no verdict.
 
 To correct a verdict, change the field with its reason in the row, and the check.  The row records the verdict and the
 check computes it; ``hull1620 reproduce`` and the tests fail if they differ.

@@ -187,7 +187,7 @@ class Step:
         return None
 
     def alterations(self) -> Iterator[tuple[str, Step]]:
-        """Yield altered steps: one for each used hypothesis, which omits it, and one with the opposite conclusion."""
+        """Yield altered steps: one without each used hypothesis, and one with the opposite conclusion."""
         for name in sorted({*self.multiplier, *(n for t in self.terms for n in t.names)}):
             rest = {key: sign for key, sign in self.hypotheses.items() if key != name}
             yield f"without {name}", replace(self, hypotheses=rest)
@@ -209,10 +209,10 @@ class Proof:
 
 
 def largest_value() -> Step:
-    """Return the step that proves: if a linear L is largest at a combination of points, it is so at each of them.
+    """Return the step that proves: a linear function that is largest at a weighted mean of points is so at each point.
 
-    The weights of the points may have any positive sum.  A combination of more than two points is formed by combining
-    two at a time.
+    The weights are positive, and their sum need not be 1.  A mean of more than two points is formed by combining two at
+    a time.
     """
     w, w_p, w_q, l_x, l_p, l_q = variables("w w_p w_q L_x L_p L_q")
     return Step(
@@ -231,7 +231,7 @@ def largest_value() -> Step:
 
 
 def combination_satisfies() -> tuple[Step, ...]:
-    """Return the steps that prove: if a linear L is at most 0 at two points, it is so at every point between them."""
+    """Return the steps that prove: a linear function that is at most 0 at two points is so at all points between."""
     p, q = point("p", 3), point("q", 3)
     slope = variables("L_1 L_2 L_3")
     level, share, l_p, l_q = variables("L_0 lambda L_p L_q")

@@ -84,7 +84,10 @@ def _kinds(text: Text, pair_uses: Mapping[tuple[str, str], int]) -> Iterator[str
 
 
 def chapter4_faults(text: Text, row: Row) -> tuple[str, ...]:
-    """Return the fault of a row in the apparatus of chapter 4, if any: each of its changes must be needed."""
+    """Return the first fault of a row in the apparatus of chapter 4, if any.
+
+    The ground of the row must hold, and it must fail without the row and without each single step of the row.
+    """
     holds = {"sibling": _sibling, "arithmetic": _arithmetic}[str(row.ground["kind"])]
     if not holds(row, build(text)):
         return (f"row {row.id}: the ground that it gives does not hold",)
@@ -109,9 +112,10 @@ _CONDITION = re.compile(r"A_(\d)x_(\w)\+B_\1y_\2\+C_\1z_\2\+D_\1[<>]0")
 
 
 def _arithmetic(row: Row, lines: tuple[Line, ...]) -> bool:
-    """Return True if each condition has four terms, A x + B y + C z + D, and if A x + B y + C has the opposite sign.
+    """Return True if each condition is printed as A x + B y + C z + D, and if the form A x + B y + C is wrong.
 
-    The signs are those for the plane and the point that the ground of the row names.
+    That form is wrong if its value is positive and that of the printed form negative for the plane and the point that
+    the ground names.
     """
     theorem = next(t for t in chapter4.load_theorems() if t.id == row.ground["theorem"])
     plane, point = theorem.plane(row.ground["equation"]), theorem.point(row.ground["point"])
@@ -128,7 +132,7 @@ def _produced(name: str) -> Lines:
 
 
 def paper_faults(paper: published.Paper, text: Text, row: Row) -> tuple[str, ...]:
-    """Return the fault of a row of a paper, if any: its results must be reproduced with the row, and not without it."""
+    """Return the fault of a row of a paper, if any: the results that it changes must be reproduced only with it."""
     if row.ground.get("kind") != "result":
         return (f"row {row.id}: unknown ground {row.ground.get('kind')!r}",)
     has_computed_result = False

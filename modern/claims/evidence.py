@@ -60,11 +60,14 @@ class Check:
     evidence: Evidence
 
     def unless(self, refutes: object, case: str) -> Self:
-        """Return this check for a statement with a condition; ``case`` violates the condition and the statement."""
+        """Add to this check that ``case``, which violates the condition of the statement, refutes the statement.
+
+        If ``refutes`` is false, return the check unchanged.
+        """
         return replace(self, evidence=replace(self.evidence, violation=case)) if refutes else self
 
     def misprinted(self, is_refuted: object, correction: str) -> Self:
-        """Turn the check of a corrected reading into that of a slip if the printed reading is refuted."""
+        """Turn the check of a corrected reading into the check of a misprint if the printed reading is refuted."""
         evidence = replace(self.evidence, correction=correction if self.holds else "")
         return replace(self, holds=False, evidence=evidence) if is_refuted else self
 
@@ -94,11 +97,11 @@ def proved(argument: str, steps: Iterable[object], message: str) -> Check:
 
 
 def identity(difference: Callable[..., int], degrees: Sequence[int], message: str) -> Check:
-    """Return the check of a polynomial identity; ``degrees`` are those of ``difference`` in its variables.
+    """Return the check of a polynomial identity; ``degrees`` has the degree of ``difference`` in each variable.
 
-    ``difference`` computes one side of the identity minus the other.  A polynomial of degree d in a
-    variable that vanishes at d + 1 values of it vanishes at all values.  So the difference is zero everywhere if it is
-    zero on a grid with d + 1 values for each variable.
+    ``difference`` computes one side of the identity minus the other.  A polynomial of degree d in a variable that is
+    zero at d + 1 values of this variable is zero at all values.  So the difference is zero everywhere if it is zero on
+    a grid with d + 1 values for each variable.
     """
     values = [difference(*point) == 0 for point in product(*(range(-(d // 2), d - d // 2 + 1) for d in degrees))]
     argument = (
@@ -119,7 +122,10 @@ def searched(generator: Generator[Any], cases: int, outcomes: Iterable[object], 
 
 
 def search(generator: Generator[T], statement: Callable[[T], object], cases: int, message: str) -> Check:
-    """Return the check of a statement about each case of a generator; the first case that refutes it is reduced."""
+    """Return the check of a statement about each case of a generator.
+
+    If a case refutes the statement, the message names a case that is as small as :func:`shrink` can make it.
+    """
     for case in generator.cases(cases):
         if not statement(case):
             smallest = shrink(case, lambda smaller: generator.accepts(smaller) and not statement(smaller))
@@ -173,7 +179,7 @@ def _smaller(case: Any) -> Iterator[Any]:
 
 @dataclass(frozen=True, slots=True)
 class Decision:
-    """A check with its arguments for one statement; ``full`` is the number of cases of its full search, or 0."""
+    """A check with its arguments for one statement; ``full`` is the number of cases of its full search, if any."""
 
     statement: str
     function: Callable[..., Check]
@@ -190,7 +196,7 @@ def claim(*statements: str, full: int = 0, **subject: Any) -> Callable[[F], F]:
 
     statements: ids of rows of the register.
     full: the number of cases of the full search; the check must then have a parameter ``cases``.
-    subject: arguments that select what is checked, for example which table; they never select the verdict.
+    subject: arguments that select what is checked, for example which table, and never what the verdict is.
     """
 
     def decorate(function: F) -> F:

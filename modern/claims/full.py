@@ -1,4 +1,4 @@
-"""The full searches of ``make claims``: each check with a full size runs at that size, and its result is recorded.
+"""The full searches of ``make claims``: checks that run once on many cases, and whose results are recorded.
 
 The results are in ``transcripts/statements/full.csv`` with the generator, its seed and the number of cases.  A result
 is kept as long as the code of its check does not change, so that an interrupted run continues where it stopped.
@@ -26,7 +26,7 @@ NAME = "full.csv"
 
 @dataclass(frozen=True, slots=True)
 class FullSearch:
-    """The result of one check at its full size.
+    """The result of the full search of one check.
 
     ``statements`` are the ids that the check decides, separated by spaces, and ``sources`` is a digest of the code
     that computed the result.
@@ -58,7 +58,7 @@ def recorded_for(statement: str) -> tuple[FullSearch, ...]:
 
 
 def searches() -> Mapping[str, tuple[Decision, tuple[str, ...]]]:
-    """Return the checks with a full size and the statements that each decides, by the name of the check."""
+    """Return the checks that have a full search, each with the statements that it decides, by the name of the check."""
     grouped: dict[str, tuple[Decision, tuple[str, ...]]] = {}
     for statement, of_statement in decisions().items():
         for decision in of_statement:
@@ -88,7 +88,7 @@ def sources_of(decision: Decision) -> str:
 
 @cache
 def _used(module: str, name: str) -> Set[tuple[str, str]]:
-    """Return the definitions of this package, as pairs of a module and a name, that a definition uses directly."""
+    """Return the definitions of this package that a definition uses directly, as pairs of a module and a name."""
     used = {node.id for node in ast.walk(definitions(module)[name]) if isinstance(node, ast.Name)}
     own = {key: (module, key) for key in definitions(module)} | imports(module)
     return {own[key] for key in used & own.keys()}
@@ -124,7 +124,7 @@ def definitions(name: str) -> Mapping[str, ast.stmt]:
 
 
 def run(name: str) -> FullSearch:
-    """Run one check at its full size."""
+    """Run the full search of one check and return its result."""
     decision, ids = searches()[name]
     check = decision.run_full()
     evidence = check.evidence

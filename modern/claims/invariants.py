@@ -37,7 +37,7 @@ def numbers_in(line: str) -> list[int]:
 
 
 def satisfied(place: str, outcomes: Iterable[Outcome]) -> Check:
-    """Return the check that a print satisfies all relations; the message names those that it violates."""
+    """Return the check that the print at ``place`` satisfies all relations; the message names the violated ones."""
     relations = [*outcomes]
     violated = [name for name, holds in relations if not holds]
     names = [name for name, _ in relations]
@@ -76,11 +76,14 @@ class HalfBall:
 
     @property
     def corners(self) -> Fraction:
-        """The number V of vertices that formula (6) of the paper, integers = 3 V + 5 F, implies for F faces."""
+        """The number V of vertices by the paper's formula (6): a hull with F faces is stored in 3 V + 5 F integers."""
         return Fraction(self.integers - 5 * self.faces, 3)
 
     def has_quarter_turns(self) -> bool:
-        """Return True if quarter turns can map the body to itself: one face and an apex, or two faces, are fixed."""
+        """Return True if the numbers of faces and vertices permit that quarter turns map the body to itself.
+
+        A quarter turn moves faces and vertices in groups of four, except either one face and an apex, or two faces.
+        """
         top = self.faces % 4 - 1
         return top in (0, 1) and self.corners % 4 == 1 - top
 
@@ -95,7 +98,7 @@ def half_balls() -> Iterator[HalfBall]:
 
 @claim("kovalevsky-schulz.171")
 def table_5() -> Check:
-    """Check that each row of Table 5 has 4.5 integers for each triangle, and 3 V + 5 F for V vertices and F faces."""
+    """Check the numbers of integers in Table 5: 4.5 for each triangle, and 3 V + 5 F for V vertices and F faces."""
     outcomes: list[Outcome] = []
     for row in half_balls():
         hundredths = Fraction(100 * row.integers, row.faces)
@@ -109,7 +112,7 @@ def table_5() -> Check:
 
 @claim("kovalevsky-schulz.89")
 def points_at_diameter_14() -> Check:
-    """Check that Table 5 implies more vertices for diameter 14 than a convex polyhedron can have with its faces."""
+    """Check that Table 5 implies too many vertices for diameter 14: F faces allow at most 2 F - 4 vertices."""
     row = next(row for row in half_balls() if row.diameter == 14)
     message = f"{row.corners} points and {row.faces} faces, which allow {2 * row.faces - 4} vertices"
     return exhibited(not may_be_convex(int(row.corners), row.faces), message)
@@ -174,7 +177,8 @@ def cell_list() -> Check:
 def table_4() -> Check:
     """Check the printed sizes in Table 4 of Kovalevsky and Schulz against formulas (5) and (6) of their paper.
 
-    (5) gives the number of integers for a triangulation, and (6) for a cell list.  Both surfaces must also be possible.
+    Formula (5) gives the number of integers for a triangulation, and (6) for a cell list.  Closed surfaces with the
+    printed numbers must also be possible.
     """
     printed = corrected_print("kovalevsky-schulz")
     triangles, corners, integers = numbers_in(printed["table4-triangulation"][0])
@@ -185,7 +189,10 @@ def table_4() -> Check:
 
 
 def counts_in_table_1(scene: str) -> list[int]:
-    """Return four printed counts for a scene of Table 1: polyhedra, vertices, faces, and points of figures on faces."""
+    """Return the four printed counts for a scene of Table 1 of Nakamae and Nishita.
+
+    They are the numbers of polyhedra, of vertices, of faces, and of points of figures on faces.
+    """
     return numbers_in(corrected_print("nakamae-nishita")[f"table1-{scene}"][0].split(")")[1])
 
 
@@ -201,7 +208,7 @@ def scene_of_solids(scene: str) -> Check:
 
 @claim("appel-will.20")
 def figure_4() -> Check:
-    """Check that each line of the map of Fig. 4 is on two surfaces, which form a closed surface like a sphere."""
+    """Check that each line of Appel and Will's Fig. 4 is on two surfaces, which form a surface like a sphere."""
     rows = [line.split()[1].split(",") for line in corrected_print("appel-will")["fig4-topological-map"]]
     return satisfied("Fig. 4", [("each line is on two surfaces, and V - E + F = 2", is_sphere(rows))])
 
@@ -221,7 +228,7 @@ def is_closed_loop(loop: Sequence[int], lines: Mapping[int, tuple[int, int]]) ->
 @claim("appel-will.65", number=14)
 @claim("appel-will.113", "appel-will.114", "appel-will.115", number=23)
 def lines_and_loops(number: int) -> Check:
-    """Check that each printed loop of lines (Figs. 14, 22 and 23) is closed and that each line is in two loops."""
+    """Check that the loops in Appel and Will's Figs. 14, 22 and 23 are closed and that each line is in two loops."""
     printed = corrected_print("appel-will")
     first, second = (printed[name] for name in ("fig22-loops-1-3", "fig22-loops-4-5"))
     fig22 = [numbers_in(cell) for row in (first[0], second[0]) for cell in row.split("\t")[1::2]]

@@ -86,11 +86,11 @@ class StatementError(ValueError):
 class Statement:
     """A statement of a document.
 
-    ``page`` may be a section.  ``words`` quotes at most eight words of the OCR text; ``says`` paraphrases
-    the statement.  ``why`` is the condition, the reason why the statement fails, or the reason why it is not tested.
+    ``page`` may be a section.  ``words`` quotes at most eight words of the OCR text; ``says`` paraphrases the
+    statement.  ``why`` is the condition, the reason why the statement fails, or the reason why it is not tested.
     ``results`` are ids of published results.  ``code`` names the code that follows a definition.  ``file`` is the
     smallest known counterexample, and ``run`` the command that shows it.  ``part`` is the theorem to which a worked
-    example of chapter 4 belongs.  ``same`` is the id of the row that a repetition repeats and that decides its verdict.
+    example of chapter 4 belongs.  ``same`` is the id of the row that this row repeats and whose verdict it shares.
     """
 
     document: str

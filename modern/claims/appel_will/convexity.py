@@ -56,7 +56,7 @@ def next_line(cases: int = CASES) -> Check:
 
 
 def _missing_faces(name: str, *steps: str) -> int:
-    """Return the number of faces of a counterexample that the method does not find with some steps as printed."""
+    """Return how many faces of a counterexample's hull the method misses if the given steps are done as printed."""
     points = counterexample_points(name)
     return len(exact_hull(points).facets) - len({*map(frozenset, appel_will(points, method=printed(*steps)).surfaces)})
 
@@ -183,7 +183,11 @@ def polyhedron_property(number: str, cases: int = 2 * CASES) -> Check:
 
 
 def _cones(points: Sequence[Point], judge: ExactHull) -> list[bool]:
-    """Return, for each vertex, whether its planes have all points on one side, and whether they meet in one point."""
+    """Return two truth values for each vertex of a hull.
+
+    The first is True if no point is outside the planes of its faces, and the second if these planes meet only in the
+    vertex.
+    """
     checks = []
     for k in judge.vertices:
         planes = [f.plane for f in judge.facets if k in f.polygon]
@@ -231,7 +235,7 @@ def number_of_combinations() -> Check:
 
 
 def holds_origin(images: Iterable[Flat]) -> bool:
-    """Return True if the origin is not a vertex of the hull that the origin and the images of points form."""
+    """Return True if the hull of points in the plane contains the origin: if added, the origin is then not a vertex."""
     flat = [(a, b, 0) for a, b in {*images}]
     return len(flat) not in exact_hull([*flat, (0, 0, 0)]).vertices
 

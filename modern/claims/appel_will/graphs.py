@@ -87,7 +87,7 @@ def outline(cases: int = CASES) -> Check:
 
 
 def _on_outline(points: Sequence[Point], judge: ExactHull, eye: Point) -> list[tuple[int, int]]:
-    """Return the edges whose images in the projection along ``eye`` are on its border and are not single points."""
+    """Return the edges whose images lie on the border of the projection along ``eye`` and are not single points."""
     edges = []
     for a, b in judge.edges():
         # This normal is perpendicular to the image of the edge in the plane of projection.

@@ -1,4 +1,4 @@
-"""Checks of single steps of Appel and Will: new and collinear lines, the star test, loops, and inside corners."""
+"""Checks of steps of Appel and Will: new and collinear lines, star test, loops, inside corners (reentrant edges)."""
 
 from collections.abc import Sequence
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""Checks of Appel and Will on objects given by surfaces: maps, lines and planes, inside corners, preprocessing."""
+"""Checks of Appel and Will on objects given by surfaces: maps, lines, planes, and inside corners (reentrant edges)."""
 
 import math
 from collections import Counter
@@ -59,7 +59,7 @@ def pitted() -> Solid:
 
 
 def twisted() -> Solid:
-    """Return a twisted prism: its six upright triangles meet in pairs at inside corners, so that it is not convex."""
+    """Return a twisted prism, which is not convex: its six upright triangles meet in pairs at reentrant edges."""
     points: tuple[Point, ...] = ((6, 0, 0), (-3, 5, 0), (-3, -5, 0), (5, 3, 6), (-5, 3, 6), (0, -6, 6))
     upright = (surface for a, b in sides(range(3)) for surface in ((a, b, b + 3), (a, b + 3, a + 3)))
     return Solid(points, ((2, 1, 0), (3, 4, 5), *upright))
@@ -110,7 +110,7 @@ def inside_corner_at_vertex() -> Check:
 
 
 def deleted_vertices(solid: Solid, rule: Rule) -> list[int]:
-    """Return the vertices of the hull that a rule for inside corners deletes from a polyhedron."""
+    """Return the vertices of the hull that a rule deletes because they lie on inside corners (reentrant edges)."""
     vertices = exact_hull(solid.points).vertices
     return [k for k in preprocess(solid.points, solid.surfaces, rule).deleted if k in vertices]
 
@@ -216,7 +216,7 @@ def vertex_without_supporting_surface() -> Check:
 
 
 def _plane_of(points: Sequence[Point], surface: Sequence[int]) -> Plane:
-    """Return the plane of a surface in lowest terms; its sign does not depend on the side from which it is seen."""
+    """Return the plane of a surface in lowest terms, with the same signs for both orientations of the surface."""
     a, b, c = max((normal := lowest(area_vector(points, surface))), minus((0, 0, 0), normal))
     return a, b, c, -dot((a, b, c), points[surface[0]])
 

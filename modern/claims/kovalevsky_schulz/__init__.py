@@ -1,5 +1,5 @@
 """Checks of statements of Kovalevsky and Schulz.
 
-What a check computes stands in the rows of ``transcripts/statements/kovalevsky-schulz.toml`` that its decorator names.
-The field ``condition`` or ``fails`` describes the counterexample.
+The decorator of a check names rows of ``transcripts/statements/kovalevsky-schulz.toml``, which say what the check
+computes. The field ``condition`` or ``fails`` of such a row describes the counterexample.
 """

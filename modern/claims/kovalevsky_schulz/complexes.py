@@ -1,7 +1,8 @@
 """Checks of Kovalevsky and Schulz on cell complexes: the definitions of the appendix, and topological coordinates.
 
-A cell of a Cartesian complex is the tuple of its topological coordinates.  An even coordinate is a 0-cell of its axis,
-and an odd one is a 1-cell.  The voxel (x, y, z) is the cell (2 x + 1, 2 y + 1, 2 z + 1).
+A cell of a Cartesian complex is the tuple of its topological coordinates.  An even coordinate 2 k is the point k of its
+axis (a 0-cell), and an odd one, 2 k + 1, is the interval from k to k + 1 (a 1-cell).  The voxel (x, y, z) is the cell
+(2 x + 1, 2 y + 1, 2 z + 1).
 """
 
 from collections.abc import Iterable, Iterator
@@ -47,7 +48,7 @@ def interior(cells: set[Cell]) -> set[Cell]:
 
 
 def farthest_ground_cell(cell: Cell) -> Cell:
-    """Return, of the cells of the highest dimension that a cell bounds, the one that is farthest from the origin."""
+    """Return the cell farthest from the origin among the cells of the highest dimension that the given cell bounds."""
     return max(product(*((c,) if c % 2 else (c - 1, c + 1) for c in cell)), key=sum)
 
 
@@ -62,7 +63,7 @@ def _complex(solid: Iterable[Point]) -> set[Cell]:
 
 
 def _placed(solid: Voxels, of: Of) -> set[Cell]:
-    """Return the array elements that the program labels for a solid's voxels or their corners, as ``of`` selects."""
+    """Return the array elements at which the program marks a solid's voxels or their corners, as ``of`` selects."""
     volume = listed(solid)
     return {*map(tuple, Volume(places(volume, of), volume.origin).coordinates().tolist())}
 
@@ -149,7 +150,7 @@ def cells_with_common_coordinates() -> Check:
 
 @cache
 def is_complex(cells: Complex) -> bool:
-    """Return True if a bounding relation is transitive and only cells of lower dimension bound others (Definition ACC).
+    """Return True if the relation is transitive and cells bound only cells of higher dimension (Definition ACC).
 
     Such a relation is antisymmetric and irreflexive, too.
     """
@@ -171,15 +172,30 @@ def complexes(k: int) -> Iterator[Complex]:
 
 
 def subcomplex(cells: Complex, subset: set[int]) -> Complex:
-    """Return the subcomplex with the given cells; its relation is that of the complex, restricted (Definition SC)."""
+    """Return the subcomplex with the given cells and the bounding relation between them (Definition SC)."""
     dimensions, relation = cells
     numbers = {cell: number for number, cell in enumerate(sorted(subset))}
     pairs = ((numbers[e], numbers[f]) for e, f in relation if {e, f} <= subset)
     return tuple(dimensions[cell] for cell in numbers), frozenset(pairs)
 
 
+@claim("kovalevsky-schulz.136")
+def subcomplexes() -> Check:
+    outcomes, every = [], [*complexes(3)]
+    for dimensions, relation in every:
+        for size in range(len(dimensions) + 1):
+            for chosen in combinations(range(len(dimensions)), size):
+                # By Definition SC, a subcomplex is a complex with the same dimensions and the restricted relation.
+                restricted = {(i, j) for i, j in product(range(size), repeat=2) if (chosen[i], chosen[j]) in relation}
+                same_cells = (c for c in every if c[0] == tuple(dimensions[cell] for cell in chosen))
+                found = [c for c in same_cells if c[1] == restricted]
+                outcomes.append(found == [subcomplex((dimensions, relation), {*chosen})])
+    message = f"each of {len(outcomes)} sets of cells has one subcomplex: the restricted relation is transitive"
+    return exhausted("sets of cells of the 3-complexes with up to 4 cells", outcomes, message)
+
+
 def connected(cells: Complex) -> set[tuple[int, int]]:
-    """Return the pairs of connected cells: two incident cells, or two connected to a third cell (Definition CN)."""
+    """Return the pairs of connected cells, which are incident or both connected to a third cell (Definition CN)."""
     numbers = range(len(cells[0]))
     pairs = {(e, f) for e, f in product(numbers, repeat=2) if e == f or {(e, f), (f, e)} & cells[1]}
     while new := {(e, f) for (e, c), (f, c_) in product(pairs, repeat=2) if c == c_} - pairs:

@@ -179,7 +179,7 @@ def invisible_needs_fewer_faces() -> Check:
 
 
 def _created(points: Sequence[Point]) -> int:
-    """Return the number of triangles that the insertion of all points makes if coplanar faces count as visible."""
+    """Return the number of triangles that inserting the points in order creates if coplanar faces count as visible."""
     current = CurrentPolyhedron(points, independent(points), VISIBLE)
     for number in range(len(points)):
         if first := current.first_visible(number) if number not in independent(points) else 0:
@@ -258,7 +258,7 @@ def economical_encoding(cases: int = 4) -> Check:
 
 
 def _incidences(cells: CellList) -> tuple[set[tuple[int, ...]], list[set[int]]]:
-    """Return the ends and faces of each edge, once for each direction, and the neighbours of each vertex."""
+    """Return (start, end, left face, right face) of each edge in both directions, and the neighbours of each vertex."""
     edges = {(e.start, e.end, e.left, e.right) for e in cells.edges}
     ends = {sign * k: end for k, e in enumerate(cells.edges, 1) for sign, end in ((-1, e.end), (1, e.start))}
     return edges | {(q, p, b, a) for p, q, a, b in edges}, [{ends[k] for k in v.edges} for v in cells.vertices]

@@ -1,6 +1,6 @@
 """Checks of Kovalevsky and Schulz on voxels: local corners and corners of voxels.
 
-A *local corner* is a voxel (or a corner of voxels) that lies between no two opposite neighbours in the same set.
+A *local corner* is a voxel (or a corner of voxels) that is not halfway between two of its neighbours in the same set.
 """
 
 from collections import Counter
@@ -85,7 +85,7 @@ def points_of(solid: Voxels, of: Of) -> Voxels:
 
 
 def _triangles(corners: Iterable[Iterable[int]], coplanar: Coplanar = INVISIBLE) -> int:
-    """Return the number of triangles of the hull of corners that are added in the given order."""
+    """Return the number of triangles of the hull that results from adding the corners in the given order."""
     return len(convex_polyhedron(corners, coplanar).faces)  # type: ignore[union-attr]
 
 

@@ -32,7 +32,7 @@ def _draw_boxes(random: Random) -> tuple[Box, ...]:
 
 
 def _apart(boxes: tuple[Box, ...]) -> bool:
-    """Return True if all boxes have a positive size and no two of them touch; shrunk cases may violate this."""
+    """Return True if all boxes have a positive size and no two touch; reduced counterexamples may violate this."""
     if any(min(b - a for a, b in zip(*box, strict=True)) < 1 for box in boxes):
         return False
     return all(any(p[1][k] < q[0][k] or q[1][k] < p[0][k] for k in range(3)) for p, q in combinations(boxes, 2))
@@ -50,7 +50,7 @@ def _draw_nested(random: Random) -> tuple[Box, ...]:
 
 
 def _is_nested(boxes: tuple[Box, ...]) -> bool:
-    """Return True if the second box is nearer, has a contour inside that of the first, and hides a part of an edge."""
+    """Return True if the second box is nearer, has its contour inside that of the first, and hides part of an edge."""
     if len(boxes) != len("vw") or not _apart(boxes):
         return False
     drawing = _drawn(boxes)
@@ -76,7 +76,7 @@ def polyhedra(boxes: tuple[Box, ...], thing: str = "") -> list[Polyhedron]:
 
 
 def _inside(point: list[Fraction], box: Box) -> tuple[Fraction, Fraction]:
-    """Return where the line from a point towards the eye enters and leaves a box.
+    """Return where the line from a point towards the eye enters and leaves a box, in multiples of the vector ``EYE``.
 
     The line misses the box if the first number is not smaller than the second.
     """
@@ -115,7 +115,7 @@ def _agrees(boxes: tuple[Box, ...]) -> bool:
 def pieces_against_rays(cases: int = 3, scenes: Generator[tuple[Box, ...]] = SCENES) -> Check:
     """Check that a piece of an edge is visible if and only if no box hides its midpoint and points next to its ends.
 
-    All edges of the boxes are divided into pieces. Those of edges between two back faces are never visible.
+    All edges of the boxes are divided into pieces. Pieces of edges between two back faces are never visible.
     """
     message = "boxes hide none of three points of each visible piece of an edge, and all three of each other piece"
     return search(scenes, _agrees, cases, message)
@@ -175,9 +175,9 @@ def _image(box: Box) -> tuple[tuple[int, int], ...]:
 
 
 def order_on_lines_of_sight(cases: int) -> Check:
-    """Check that the box that is nearer where the images of two boxes cross is nearer on every line of sight.
+    """Check that, of two boxes, the one that is nearer at a crossing of their images is nearer on every line of sight.
 
-    The lines of sight pass through both boxes, and through a point of one box whose coordinates are integers.
+    The tested lines of sight pass through both boxes, and through a point of one of them with integer coordinates.
     """
 
     def have_one_order(boxes: tuple[Box, ...]) -> bool:
@@ -188,7 +188,7 @@ def order_on_lines_of_sight(cases: int) -> Check:
 
 
 def _orders(*pair: Box) -> Iterator[int]:
-    """Yield, for each sampled line of sight through V and V', 1 if V is nearer, -1 if V' is, and 0 if neither is."""
+    """Yield for each sampled line of sight through two boxes: 1 if the first is nearer, -1 if the second is, else 0."""
     for low, high in pair:
         for point in product(*(range(a, b + 1) for a, b in zip(low, high, strict=True))):
             (first_v, last_v), (first_w, last_w) = (_inside([*map(Fraction, point)], box) for box in pair)

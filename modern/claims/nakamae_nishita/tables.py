@@ -41,7 +41,10 @@ def lines_of(places: tuple[Place, ...]) -> list[tuple[int, int, int]]:
 
 
 def tables_of(v: tuple[Place, ...], w: tuple[Place, ...]) -> tuple[list[list[int]], list[list[int]]]:
-    """Return PL and LP by formula (2) with rows for V' and columns for V, for contours that may or may not overlap."""
+    """Return the tables PL (vertices of V' against lines of V) and LP (lines of V' against vertices of V).
+
+    Rows belong to V' and columns to V.  The entries are computed by formula (2), also for contours that do not overlap.
+    """
     pl = [[sign(value(line, p)) for line in lines_of(v)] for p in flat(w)]
     lp = [[sign(value(line, p)) for p in flat(v)] for line in lines_of(w)]
     return pl, lp
@@ -73,7 +76,10 @@ def inside(p: Place, v: tuple[Place, ...]) -> bool:
 
 
 def overlap(v: tuple[Place, ...], w: tuple[Place, ...]) -> bool:
-    """Return True if the hulls of two sets have common inner points: 0 is inside the hull of all differences."""
+    """Return True if the hulls of two sets have common inner points.
+
+    They have if 0 is inside the hull of all differences between a point of one set and a point of the other.
+    """
     differences = sorted({(q[0] - p[0], q[1] - p[1], 0) for p in v for q in w})
     ring = [differences[k][:2] for k in exact_hull(differences).polygon]
     return all(area((0, 0), a, b) > 0 for a, b in sides(ring))
@@ -179,7 +185,11 @@ def formula_5() -> Check:
 
 @cache
 def numbers_of_meetings(v: tuple[Place, ...], w: tuple[Place, ...]) -> list[tuple[int, int]]:
-    """Return, for each pair of sides of two contours, the value of formula (3) and that required by their position."""
+    """Return two values of d, the number that tells how two segments meet, for each pair of sides of two contours.
+
+    The first is computed by formula (3), and the second is the value that section 3.2 states for the position of the
+    sides.
+    """
     tables, meetings = tables_by_2(v, w), []
     for (i, (a, b)), (j, (c, d)) in product(enumerate(sides(v)), enumerate(sides(w))):
         # Section 3.2: -4 for a crossing, -2 for a vertex on a segment, -1 for a common vertex, else 0.
@@ -235,8 +245,9 @@ def table_properties(number: str, cases: int = CASES) -> Check:
 def _property(
     number: str, v: tuple[Place, ...], w: tuple[Place, ...], of_lines: Rows, met: Rows
 ) -> tuple[list[bool], bool]:
-    """Return whether a property of the tables holds in each case, and whether a line that must not cross w touches it.
+    """Return True or False for each case of a property of the tables, and True if a line without -1 touches w.
 
+    Property 3 says that a line of v does not cross w if no vertex of w has the sign -1; such a line may still touch w.
     ``of_lines`` has, for each line of v, the signs of the vertices of w. ``met`` has the values of d, formula (3), for
     each line of v and each line of w.
     """

@@ -171,7 +171,7 @@ def formula_4() -> Check:
 
 
 def _undecided_if_touching() -> bool:
-    """Return True if formula (4) decides nothing for two boxes that touch, and misses the hidden parts of an edge."""
+    """Return True if formula (4) cannot order two touching boxes by depth and so misses hidden parts of an edge."""
     scenes = [_scene("stacked.toml", *without) for without in (("touching",), ())]
     hidden = [_hidden(scene, INNER) + _hidden(scene, CONTOUR) for scene in scenes]
     return [scene.relations[0].nearer != 0 for scene in scenes] == [False, True] and hidden[0] < hidden[1]

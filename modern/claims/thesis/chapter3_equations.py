@@ -119,7 +119,10 @@ def first_two_points(cases: int = CASES) -> Check:
 
 
 def line_as_printed(u1: int, v1: int, u2: int, v2: int) -> Line:
-    """Return equation (3.1), (3.2), (3.3) or (3.5): (v2 - v1) U + (u1 - u2) V + (u2 - u1) v1 + (v1 - v2) u1 = 0."""
+    """Return the line of equations (3.1), (3.2), (3.3) and (3.5), which have the same form in two coordinates U and V.
+
+    The form is (v2 - v1) U + (u1 - u2) V + (u2 - u1) v1 + (v1 - v2) u1 = 0.
+    """
     return v2 - v1, u1 - u2, (u2 - u1) * v1 + (v1 - v2) * u1
 
 

@@ -169,7 +169,7 @@ def _largest_of_all(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _replaced_facet(sampled: SampledSet) -> Iterator[bool]:
-    """Yield, for each new point outside a single facet, whether one new facet on each of its edges replaces it.
+    """Yield, for each new point outside a single facet, True if one new facet on each edge of this facet replaces it.
 
     In a plane, every new point must be outside a single line.
     """

@@ -183,7 +183,10 @@ def _not_supporting(theorem: Theorem) -> Check:
 
 @cache
 def points_of_h_5() -> tuple[str, ...]:
-    """Return the vertices of H_5 of theorem 4.8 as the text names them: those of H_1, then one added at each step."""
+    """Return the names of the vertices of H_5, the fifth hull of the construction in theorem 4.8, as printed.
+
+    The vertices of the first hull H_1 come first, then the point that each step adds.
+    """
     (sentences,) = (line.text for line in build(load_text()) if "are the vertices of H_1" in line.text)
     names = {point.at: point.name for point in theorem_of("4.8").points}
     return tuple(names[printed_point(point)] for point in re.findall(r"\([^)]*\)", sentences))
@@ -272,7 +275,7 @@ def slips_of_4_8(which: str) -> Check:
 
 
 def _is_one(name: str, at: tuple[int, int, int]) -> bool:
-    """Return True if a point of theorem 4.8 has the given coordinates and is on each plane that names it."""
+    """Return True if a point of theorem 4.8 has these coordinates and lies on each plane that lists it as a vertex."""
     theorem = theorem_of("4.8")
     point = _point(theorem, name)
     values = [plane.at(point) for plane in theorem.planes if name in plane.vertices]

@@ -215,7 +215,7 @@ def printed_hulls(examples: Iterable[int] = EXAMPLES) -> Check:
 
 
 def _differ(first: Sequence[Fraction], second: Sequence[Fraction]) -> bool:
-    """Return True if two planes through a line are not the same plane."""
+    """Return True if two equations, given by their coefficients, do not describe the same plane."""
     return any(a * d != b * c for (a, b), (c, d) in combinations(zip(first, second, strict=True), 2))
 
 

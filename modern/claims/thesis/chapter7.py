@@ -119,7 +119,7 @@ def entries_of_plane_table() -> int:
 
 
 def plane_through_c() -> Check:
-    """Check that a run ends with an error (KNOWN-FAULTS 3) at a plane through the inside point C; yet a hull exists."""
+    """Check that a plane through the inside point C ends a run with an error (KNOWN-FAULTS 3), though a hull exists."""
     message = typed(run_of("throughc.deck"))
     points = points_on(deck_of("throughc.deck"))
     judge = exact_hull(points)

@@ -33,7 +33,7 @@ def coincidences(extremes: Sequence[Extreme] = EXTREMES) -> Iterator[tuple[froze
     """Yield each way in which some of the six extreme points of a set can be the same point.
 
     Extreme points that coincide form a group.  No group contains both the largest and the smallest value of a
-    coordinate: all points would then be equal in it.
+    coordinate, because all points would then be equal in this coordinate.
     """
     if not extremes:
         yield ()
@@ -52,7 +52,7 @@ def _lattice(side: int) -> list[Lattice]:
 
 
 def coplanar_extremes() -> Iterator[bool]:
-    """Yield, for each way in which extremes can coincide, whether a set not in a plane has such extremes in a plane."""
+    """Yield, for each way in which extreme points can coincide, True if they can be coplanar in a set that is not."""
     on_planes: list[dict[frozenset[Extreme], Lattice]] = [
         {_extremes_of(p): p for p in _lattice(SIDE) if dot(normal, p) == d} for normal, d in PLANES
     ]
@@ -95,8 +95,8 @@ def table_1() -> Iterator[bool]:
 def _are_separate(first: Sequence[str], second: Sequence[str], at: Mapping[str, Lattice]) -> bool:
     """Return True if two triangles do not meet except in their common corners and sides.
 
-    Two triangles with a common side must not be coplanar.  Otherwise some linear function must have a value that the
-    triangles attain at most at their common corner and that separates their other corners.
+    Two triangles with a common side must not be coplanar.  Otherwise a plane must separate the triangles; it may
+    contain only their common corner, if they have one.
     """
     shared = {*first} & {*second}
     rest = [[at[name] for name in face if name not in shared] for face in (first, second)]
@@ -112,7 +112,7 @@ def _are_separate(first: Sequence[str], second: Sequence[str], at: Mapping[str, 
 
 
 def outside_several_planes() -> Iterator[bool]:
-    """Yield the facts of theorem 4.8: the procedure makes H_5, and its last point is outside six planes of H_5."""
+    """Yield the facts of theorem 4.8: the procedure makes the hull H_5, then adds a point outside six planes of H_5."""
     theorem = theorem_of("4.8")
     points = [point.at for point in theorem.points]
     hull = convex_hull(points, history=True)

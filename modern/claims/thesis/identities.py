@@ -213,7 +213,11 @@ def sum_of_page_46() -> Check:
 
 
 def _v(x: Point, i: Point) -> Polynomial:
-    """Return the value V of pages 14 and 41 with the point ``x`` in its first factors and ``i`` in the others."""
+    """Return V, by which chapter 3 compares distances from a line, with two points in place of the one in the formula.
+
+    V is a sum of three squares of differences of two products.  The first products contain the point ``x``, and the
+    second products the point ``i``.
+    """
     u, w, first = minus(Q, P), minus(Q, i), minus(Q, x)
     rows = (first[1] * u[2] - w[2] * u[1], first[2] * u[0] - w[0] * u[2], first[0] * u[1] - w[1] * u[0])
     return dot(rows, rows)

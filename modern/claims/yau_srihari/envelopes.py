@@ -73,7 +73,7 @@ def _placed(voxels: tuple[Point, ...]) -> tuple[Point, ...]:
 
 @cache
 def _envelopes_agree(voxels: tuple[Point, ...]) -> bool:
-    """Return True if both envelopes have faces of the exact hull and the filled hull has its digital points."""
+    """Return True if both envelopes have the exact hull's faces, and the filled array has the voxels in that hull."""
     points, hull = _placed(voxels), hull_of(voxels)
     judge = exact_hull(points)
     for envelope, sign in ((hull.lower, 1), (hull.upper, -1)):
@@ -196,7 +196,7 @@ def supporting_planes(cases: int = 5) -> Check:
 
 @claim("yau-srihari.67", full=500)
 def rule_1(cases: int = 5) -> Check:
-    """Check that each face, seen from below, is on the same side of its directed edges, which no other face has."""
+    """Check that each face, seen from below, is on one side of its directed edges, and that no two faces share one."""
 
     def are_opposite(voxels: tuple[Point, ...]) -> bool:
         faces = hull_of(voxels).lower.faces

@@ -1,4 +1,4 @@
-"""Checks of Yau and Srihari on steps: edges of the queue, rows and columns, and the angles of the search."""
+"""Checks of steps of Yau and Srihari: the queue of edges, vertices in rows and columns, and the search by angles."""
 
 from collections.abc import Mapping
 from itertools import product
@@ -59,7 +59,7 @@ def envelope_algorithm(of_ceiling: bool, cases: int = 2) -> Check:
 
 
 def _is_wrong(name: str, of_ceiling: bool) -> bool:
-    """Return True if a step as printed gives a wrong envelope of its counterexample or of its mirror image in z."""
+    """Return True if a step as printed gives a wrong envelope for its counterexample, as it is or mirrored in z."""
     upright = array_of(counterexample_points(f"yau_{name}.csv"))
     both = [[octree_hull(array, p) for p in (Printed(), Printed.only(name))] for array in (upright, upright[..., ::-1])]
     trees = [[heights((hull.upper if of_ceiling else hull.lower).tree) for hull in hulls] for hulls in both]
@@ -99,7 +99,7 @@ def _extreme(place: Place, axis: int, heights_: Mapping[Place, int]) -> bool:
 
 
 class _Counted(Search):
-    """A search that counts the points whose angles it computes; ``angles`` also counts the angles of bounds."""
+    """A search that counts in ``taken`` the points whose angles it computes; ``angles`` also counts square corners."""
 
     taken = 0
 
@@ -122,10 +122,11 @@ def angle_counts(cases: int = 3) -> Check:
 
 
 def _angles(hull: OctreeHull) -> tuple[int, int, int, int]:
-    """Return four numbers of angles for all edges of the lower envelope.
+    """Return four counts of angles, each for all edges of the lower envelope together.
 
-    They count all points beyond the edge, such points of the reduced set A, the points that the search visits, and the
-    latter together with the bounds of the search.
+    The first is for all points beyond an edge, and the second for such points of the reduced set A, the points that can
+    be vertices.  The third is for the points that the search visits, and the fourth for these points and for the
+    corners of squares with which the search bounds the angles of many points.
     """
     reduced = written(no_columns(hull.side), {(x, y): Leaf(z) for x, y, z in hull.lower.reduced})
     searches = [_Counted(*step.edge, step.normal, Printed()) for step in hull.lower.steps]
