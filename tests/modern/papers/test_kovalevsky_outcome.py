@@ -94,7 +94,7 @@ def test_faces_are_sorted_and_those_of_the_exact_hull(volume: Volume) -> None:
 def test_without_an_order_there_are_no_triangles() -> None:
     hull = ks.voxel_hull(half_ball(8))
     assert (hull.order, hull.polyhedron.triangulation) == (None, None)
-    with pytest.raises(VolumeError, match="set the order, for example to raster"):
+    with pytest.raises(VolumeError, match="inserted one by one, as with order='raster'"):
         _ = hull.polyhedron.triangles
     for choice in ({"order": ks.RASTER}, {"coplanar": ks.VISIBLE}):
         inserted = ks.voxel_hull(half_ball(8), **choice)
