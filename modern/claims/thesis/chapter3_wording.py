@@ -4,9 +4,10 @@ import re
 from collections.abc import Sequence
 from itertools import pairwise
 
-from emulator.language.objectcode import Program
+from emulator.language.objectcode import Line, Program
 from emulator.machine.machine import Machine
 from emulator.machine.result import Options
+from emulator.machine.session import Session
 from emulator.objectdeck.extent import code_positions
 from modern.claims.evidence import Check, claim, exhibited, refuted, searched, slip
 from modern.claims.hulls import convex_hull, exact_hull
@@ -131,25 +132,49 @@ def consecutive_hulls() -> Check:
     return slip(0 in numbers, all(checks), "2", message)
 
 
-@claim("thesis.219")
-def netc_in_listings() -> Check:
-    assigned = [re.findall(r"\bNETC *= *(\S+)", programs.deck(name).text()) for name in ("program2", "program3")]
-    return exhibited(assigned == [["1", "NETC+1"]] * 2, "the listings set NETC to 1 once and otherwise add 1 to it")
+@claim("thesis.219", full=100)
+def first_equation_tested(cases: int = CASES) -> Check:
+    outcomes, numbers = [], []
+    for sampled in flat_and_spatial_sets(cases):
+        # The test of H_1 begins with equation 1.
+        stopped = 1
+        for (before, _), (step, netc) in pairwise(_traced(sampled.points)):
+            if before + step == "EC":
+                outcomes.append(netc == stopped)
+                numbers.append(netc)
+            if step == "G":
+                stopped = netc
+    later = sum(number > 1 for number in numbers)
+    message = f"{len(numbers)} hulls: the test begins with equation 1 for H_1, and otherwise with the equation at "
+    message += f"which the test of the hull before stopped; in {later} cases, this is a later equation than number 1"
+    return searched(BOTH, 2 * cases, [*outcomes, later], message)
+
+
+def _traced(points: Sequence[Point]) -> list[tuple[str, int]]:
+    """Run the programs on a set; return the steps of ``_ELIMINATE_CHECK_GROW`` in order, each with the number NETC."""
+    steps: list[tuple[str, int]] = []
+
+    def watch(program: Program, machine: Machine) -> None:
+        labels = _ELIMINATE_CHECK_GROW.get(program.source, {})
+
+        def trace(line: Line, session: Session) -> None:
+            if line.label in labels:
+                ((netc, _),) = session.held("NETC")
+                steps.append((labels[line.label], int(netc)))
+
+        machine.tracer = trace
+
+    run_hull(deck_with(points), programs.program, Options(limit=100_000), watch=watch)
+    return steps
 
 
 @claim("thesis.286", full=100)
 def order_of_elimination(cases: int = CASES) -> Check:
     in_order, hulls = [], 0
     for sampled in flat_and_spatial_sets(cases):
-        steps: list[str] = []
-
-        def watch(program: Program, machine: Machine, steps: list[str] = steps) -> None:
-            labels = _ELIMINATE_CHECK_GROW.get(program.source, {})
-            machine.tracer = lambda line, _: steps.append(labels[line.label]) if line.label in labels else None
-
-        run_hull(deck_with(sampled.points), programs.program, Options(limit=100_000), watch=watch)
+        steps = "".join(step for step, _ in _traced(sampled.points))
         # The last hull is not tested if no point remains, and a run can end with an error after a new point.
-        in_order.append(re.fullmatch("(EC+G)*(EC*)?", "".join(steps)))
+        in_order.append(re.fullmatch("(EC+G)*(EC*)?", steps))
         hulls += steps.count("E")
     message = f"{len(in_order)} runs, {hulls} hulls: the inside points of each hull are eliminated before it is tested"
     return searched(BOTH, 2 * cases, [*in_order, hulls > len(in_order)], message)

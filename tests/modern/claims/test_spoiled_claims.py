@@ -74,7 +74,6 @@ BY_HAND: dict[str, tuple[str, Callable[[Any], object]]] = {
     "thesis.195": ("programs", _listing_with("*C1", "*C2")),
     "thesis.196": ("convex_hull", lambda original: lambda points, **_: replace(original(points), history=())),
     "thesis.208": ("programs", _without_code),
-    "thesis.219": ("programs", _listing_with("NETC=1", "NETC=2")),
     "thesis.242": ("_distance_squared", lambda _: lambda x, p, q: Fraction((3 * abs(x[0]) - 2 * x[1] + 5) ** 2, 13)),
     "thesis.261": ("programs", _listing_with("POINTS THAT ARE NOT VERTICES", "")),
     "thesis.262": ("programs", _listing_with("INSIDE PLANES", "PLANES")),
