@@ -7,7 +7,7 @@ These steps add a fifth paper, ``NAME``. Commands and the registers of statement
    ``yau_srihari/printed.py`` does.
 2. ``transcripts/FOLDER/``, where FOLDER is NAME and the year, such as ``appel_will_1976`` (only the folder
    ``kovalevsky_schulz`` has no year): ``witness.txt`` (the printed values exactly as the OCR text has them),
-   ``apparatus.toml`` (the emendations) and ``results.toml`` (which lines of the corrected print are one published
+   ``apparatus.toml`` (the emendations) and ``results.toml`` (which lines of the corrected print form one published
    result). Add the source to ``fortran_src/SOURCES.toml``. A paper that prints no values, such as Yau and Srihari's,
    skips steps 2 and 3.
 3. ``modern/papers/NAME/results.py``: the function ``produced``, which :data:`Lines` describes. Add a ``Paper`` to
@@ -23,8 +23,8 @@ These steps add a fifth paper, ``NAME``. Commands and the registers of statement
    the transcript in ``transcripts/README.md``.
 
 Tests go into ``tests/modern/papers/``: ``test_NAME.py`` compares the algorithm with the exact hull or another
-independent method on random input, ``test_NAME_cli.py`` runs the command, and ``test_NAME_published.py`` covers what
-``results.py`` computes. ``test_published.py`` there and ``tests/modern/claims/test_register.py`` check every paper in
+independent method on random input, ``test_NAME_cli.py`` runs the command, and ``test_NAME_published.py`` tests
+``results.py``. ``test_published.py`` there and ``tests/modern/claims/test_register.py`` check every paper in
 ``PAPERS`` and every row of the register without further entries.
 """
 

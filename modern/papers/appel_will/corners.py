@@ -18,7 +18,7 @@ PLANES = 3
 
 @dataclass(frozen=True, slots=True)
 class Corner:
-    """An edge of the polyhedron, and a number whose sign tells if the edge is reentrant (Fig. 18).
+    """An edge of the polyhedron, and a number whose sign distinguishes reentrant from convex edges (Fig. 18).
 
     The number is the triple product [IKL] of the edge's direction I and the normals K and L of its two surfaces. All
     three vectors are in lowest terms, and the normals point into the solid. The product is negative for an inside
@@ -63,9 +63,9 @@ def preprocess(points: Sequence[IntPoint], surfaces: Sequence[Surface], rule: Ru
     ``any`` deletes each point on at least one inside corner. This is correct only for objects that the paper calls well
     behaved (Fig. 15), which have at most three planes at each point. ``two`` deletes each point on at least two inside
     corners and at most one outside corner (Fig. 16, 1). This is correct for every object, because a vertex of the hull
-    is on at least three outside corners. ``concave`` deletes each point on an inside corner that is a concave point of
-    a surface (Fig. 16, 2). This is correct for every object too, because the angle of a surface at a vertex of the hull
-    is less than 180 degrees.
+    is on at least three outside corners. ``concave`` deletes each point that is on an inside corner and is also a
+    concave point of a surface (Fig. 16, 2). This is correct for every object too, because the angle of a surface at a
+    vertex of the hull is less than 180 degrees.
 
     Raise MapError if the surfaces do not form a closed polyhedron, and ValueError for an unknown rule.
     """

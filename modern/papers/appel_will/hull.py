@@ -25,11 +25,11 @@ class Method:
 
     ``step3``: take the first admissible L2. The corrected step prefers an L2 whose direction has a positive dot product
     with that of L1, as the main text requires of two lines that define a plane.
-    ``step5``, ``step7``: "go back to step 2", so that an L1 whose first L2 is rejected is skipped. The correct target
-    is step 3.
+    ``step5``, ``step7``: "go back to step 2", which skips an L1 whose first L2 is rejected. The correct target is
+    step 3.
     ``step9``: exclude only L1 and L2 from the search for the next line, not the other lines already on the loop.
-    ``step10``: "start another loop at step 1", so that every loop begins as if no line had been used. The correct
-    target is step 2.
+    ``step10``: "start another loop at step 1". Every loop then begins as if no line had been used. The correct target
+    is step 2.
     """
 
     star: StarTest = in_one_pass
@@ -41,7 +41,7 @@ CORRECTED = Method()
 
 
 def printed(*names: str) -> Method:
-    """Return the method with the named rules as the paper prints them, although wrong, and all others corrected.
+    """Return the method that applies the named rules as printed, although they are wrong, and corrects all others.
 
     The name ``star`` selects the star polygon test as printed. The names of steps are those of :class:`Method`. Raise
     ValueError for an unknown name.
@@ -58,10 +58,10 @@ class Assembled:
 
     ``points`` are the input coordinates multiplied by ``scale``, as integers. ``duplicates`` has pairs of a point and
     the first point that is equal to it. ``preprocessing`` has the points deleted at inside corners, if a rule was
-    chosen, and ``deleted`` the points found between two others in the projections. ``edges`` is the convex edge list
-    (the edges of the hull), and ``table`` the loop table. A polygon has one loop, which uses every edge once; a segment
-    or a point has no loop. ``surfaces`` is the topological map: the points of each loop. ``dimension`` is that of the
-    point set, from 0 to 3.
+    chosen, and ``deleted`` the points that the projections show to lie between two others. ``edges`` is the convex edge
+    list (the edges of the hull), and ``table`` the loop table. A polygon has one loop, which uses every edge once; a
+    segment or a point has no loop. ``surfaces`` is the topological map: the points of each loop. ``dimension`` is that
+    of the point set, from 0 to 3.
     """
 
     points: tuple[IntPoint, ...]

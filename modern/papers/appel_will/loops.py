@@ -20,8 +20,8 @@ class Loop:
     """The border of a face as a list of edges, and the state of the search after the loop was closed.
 
     ``entries`` are the paper's LUP(N, 1), LUP(N, 2) and so on for loop N. ``kind`` is the type of the intersection of
-    the first two edges (Fig. 20). ``start`` and ``match`` are the points SP and MP of step 8. ``uses`` has, for each
-    edge L, the count IUC(L) of its uses after this loop.
+    the first two edges (Fig. 20). ``start`` and ``match`` are the points SP and MP of step 8: the loop starts at SP and
+    continues from MP. ``uses`` has for each edge L the count IUC(L): the number of its uses in all loops so far.
     """
 
     entries: tuple[int, ...]
@@ -145,7 +145,7 @@ def _begin(table: _Table) -> Intersection | None:
 
 
 def _seconds(table: _Table, first: int) -> Iterator[Intersection]:
-    """Yield the intersections of edge ``first`` with each edge that lies with it in a new face (steps 3 to 7)."""
+    """Yield the intersection of edge ``first`` with each edge that can be the second of a new face (steps 3 to 7)."""
     for second in range(len(table.edges)):
         if second == first or table.uses[second] == TIMES:
             continue
@@ -164,7 +164,7 @@ def _seconds(table: _Table, first: int) -> Iterator[Intersection]:
 
 
 def _is_convex_plane(table: _Table, crossing: Intersection) -> bool:
-    """Return True if the plane through two edges has no points on one of its two sides (steps 6 and 7)."""
+    """Return True if the plane through two edges does not have points on both of its sides (steps 6 and 7)."""
     normal, origin = _plane(table.points, crossing)
     heights = (dot(normal, minus(table.points[p], origin)) for p in table.vertices)
     sides = {(height > 0) - (height < 0) for height in heights}
@@ -174,7 +174,7 @@ def _is_convex_plane(table: _Table, crossing: Intersection) -> bool:
 def _follow(table: _Table, crossing: Intersection) -> list[int] | None:
     """Return the entries of the loop that begins with two edges, or None if it does not close (steps 9 and 10).
 
-    The loop has at most as many lines as there are edges, as the appendix advises.
+    The search ends after as many lines as there are edges, as the appendix advises.
     """
     normal, origin = _plane(table.points, crossing)
     entries = [*crossing.entries]

@@ -60,8 +60,7 @@ def solid_svg(
     """Return a picture of the hull and the other lines of the given polyhedron, with hidden edges dashed, as SVG text.
 
     ``points`` are the coordinates of the input as text. ``original`` are the surfaces of the given polyhedron, if
-    known.
-    ``joined`` tells which faces of ``as_mesh(hull)`` are drawn as one face. ``eye`` and ``width`` are those of
+    known. ``joined`` tells which faces of ``as_mesh(hull)`` are drawn as one face. ``eye`` and ``width`` are those of
     ``modern.drawing.draw.draw_svg``. Raise ExportError if there is no hull, or if the view or the width is invalid.
     """
     record = as_record(hull, points, joined)
@@ -131,7 +130,7 @@ def as_record(hull: Assembled, points: Sequence[Point], joined: Joined | None = 
 
 
 def joined_surfaces(hull: Assembled, joined: Joined) -> tuple[Surface, ...]:
-    """Return the faces of the hull after merging faces of ``as_mesh(hull)``, as cycles of indices of input points."""
+    """Return the hull's faces, with faces merged as in ``joined``, as cycles of indices of input points."""
     return tuple(tuple(hull.vertices[place] for place in loop) for loop in joined.loops)
 
 
@@ -142,12 +141,12 @@ def joined_points(hull: Assembled, joined: Joined) -> list[tuple[int, ...]]:
 
 @dataclass(frozen=True, slots=True)
 class Star:
-    """The star polygon of a line through two points, which tells if the line is an edge of the hull (Figs. 8 to 12).
+    """The star polygon of a line through two points, which decides if the line is an edge (Figs. 8 to 12).
 
-    The line is seen along itself and has the image C, a point. ``line`` lists the points on the line from end to end.
-    ``order`` lists the other points by the angle of their images about C, and ``images`` these images relative to C.
-    ``outside`` is True if C is outside the star polygon, so that the line is a convex edge. ``clockwise`` has the index
-    of the side that turns clockwise about C, if there is one.
+    In the projection parallel to the line, the image of the line is the point C. ``line`` lists the points on the line
+    from end to end. ``order`` lists the other points by the angle of their images about C, and ``images`` these images
+    relative to C. ``outside`` is True if C is outside the star polygon, i.e. if the line is a convex edge.
+    ``clockwise`` has the index of the side that turns clockwise about C, or is empty if there is none.
     """
 
     line: tuple[int, ...]

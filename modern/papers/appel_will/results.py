@@ -178,7 +178,7 @@ def _first_three(hull: Assembled) -> Iterator[str]:
 
 
 def _last_two(hull: Assembled) -> Iterator[str]:
-    """Compute the lower half of the table in Fig. 22, with rows 1, 2 to 6 and 7 to 9 each in one line, as scanned."""
+    """Compute the lower half of the table in Fig. 22. As in the scan, rows 2 to 6 and rows 7 to 9 are one line each."""
     loops = hull.table.loops[3:]
     yield " ".join(f"{_numbers(len(loop.entries))} {_joined(loop.entries)}" for loop in loops)
     for first, last in ((1, 1), (2, 6), (7, 9)):
@@ -202,7 +202,7 @@ def _map_rows(hull: Assembled) -> Iterator[str]:
 
 
 def _from_lowest(surface: Surface) -> Surface:
-    """Return the points around a surface, first the lowest number and then the lower of its two neighbours."""
+    """Return the points around a surface, from the lowest number on, in the direction of its lower neighbour."""
     start = surface.index(min(surface))
     cycle = surface[start:] + surface[:start]
     return cycle if cycle[1] < cycle[-1] else (cycle[0], *cycle[:0:-1])

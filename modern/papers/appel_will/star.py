@@ -84,7 +84,7 @@ def _sides(star: Sequence[Image]) -> list[tuple[Image, Image]]:
 
 
 def _angle(a: Image, b: Image) -> int:
-    """Return a negative number if image ``a`` has the smaller polar angle, 0 if the angles are equal."""
+    """Compare polar angles. Return a number below 0 if that of ``a`` is smaller, 0 if both are equal, else above 0."""
     lower_a, lower_b = _is_lower(a), _is_lower(b)
     return lower_a - lower_b if lower_a != lower_b else -vorticity(a, b)
 
@@ -118,9 +118,9 @@ class Edges:
 class Projection:
     """A projection parallel to the line through a pair of points.
 
-    ``images`` are the images of the points off the line, relative to the line's image C and up to an affine map that
-    all images share. ``line`` lists the points on the line, including the pair, sorted along it ("the distance from the
-    orthographic projection plane can serve as a basis for sorting").
+    ``images`` are the images of the points that are not on the line, relative to the line's image C. All of them are
+    distorted by the same affine map. ``line`` lists the points on the line, including the pair, sorted along it ("the
+    distance from the orthographic projection plane can serve as a basis for sorting").
     """
 
     images: list[Image]

@@ -46,8 +46,8 @@ class Fates:
 def fates_by_points(original: Sequence[Surface], faces: Sequence[Collection[int]], hull: Sequence[Surface]) -> Fates:
     """Return what becomes of the given surfaces on a hull, some of whose faces may have been merged.
 
-    A given surface lies in the face that contains all of its points. ``faces`` has all points in each face or its
-    plane, and ``hull`` the points around each face.
+    A given surface lies in the face that contains all of its points. For each face of the hull, ``faces`` has all
+    points that count as lying in it, and ``hull`` the points around it.
     """
     numbers = range(len(hull))
     of = tuple(next((number for number in numbers if set(faces[number]) >= set(s)), None) for s in original)
@@ -67,7 +67,7 @@ def check_surfaces(count: int, surfaces: Sequence[Surface]) -> None:
 
 
 def oriented(points: Sequence[IntPoint], surfaces: Sequence[Surface]) -> tuple[Surface, ...]:
-    """Return the surfaces with their points counterclockwise as seen from outside, each from the same first point.
+    """Return the surfaces with their points counterclockwise as seen from outside. The first point of each stays.
 
     Raise MapError unless the surfaces form one closed polyhedron: every surface is plane, every line is on two
     surfaces, all surfaces are connected, and they enclose a volume. The sign of the volume distinguishes inside from

@@ -243,7 +243,7 @@ def _check_cycles(sizes: Numbers, start: Numbers, face: Numbers, count: int) -> 
 
 
 def _check_convex(points: Sequence[IntPoint], sizes: Numbers, vertex: Numbers, face: Numbers) -> None:
-    """Raise CellListError unless each face is plane and no vertex is outside its plane."""
+    """Raise CellListError unless each face is plane and no vertex is outside the plane of any face."""
     _, shifted = _shifted(points, sizes)
     normals, constants = _planes(shifted, sizes, vertex)
     greatest = sum(int(abs(part).max()) * int(shifted.max()) for part in normals.T) + int(abs(constants).max())
@@ -298,12 +298,12 @@ def _listed(items: Iterable[object]) -> str:
 
 
 def triangulation_size(triangles: int) -> Fraction:
-    """Return the number of integers that a triangulation with half as many vertices as triangles stores (formula 5)."""
+    """Return the number of integers in a triangulation, by formula (5). It has half as many vertices as triangles."""
     return (Fraction(3, 2) + 3) * triangles
 
 
 def cell_list_size(vertices: int, faces: int) -> int:
-    """Return the number of integers that a short cell list stores: formula (6), with five vertices for each face."""
+    """Return the number of integers in a short cell list by formula (6), which assumes five vertices for each face."""
     return 3 * vertices + 5 * faces
 
 

@@ -1,11 +1,11 @@
-"""Two abandoned ways of the paper to treat a new point that lies in the plane of a face (section 2, Figs. 7 and 8).
+"""Two treatments of a new point in the plane of a face, which the paper tried and gave up (section 2, Figs. 7 and 8).
 
 Let P be a new point in the plane of a face. *Quadrangles* (Fig. 7): the face counts as invisible. The edges between
 this face and visible faces, together with P, form one new face in the same plane, instead of a triangle for each edge.
 The new face is merged with the old one. *Extended* (Fig. 8): the face itself is extended to P by a hull in its plane.
 
-There is one face for each plane, stored as the cycle of its vertices without the vertices in line with two others. All
-arithmetic is in integers.
+There is one face for each plane. It is stored as the cycle of its vertices, without vertices that lie in line with two
+others. All arithmetic is in integers.
 """
 
 from collections.abc import Iterable, Sequence
@@ -27,10 +27,10 @@ Edge = tuple[int, int]
 class MergedHull:
     """A hull whose coplanar faces are merged, and counts of the steps that computed it.
 
-    Each face lists its vertices counterclockwise as seen from outside, beginning with the smallest index. The counts
-    are: ``created`` new faces, ``larger`` new faces with more than three vertices, ``merged`` new faces that were
-    merged with a face of the same plane, ``extended`` extensions of a face to a new point of its plane, and
-    ``straightened`` vertices that were removed because they lay in line with their neighbours.
+    Each face lists its vertices counterclockwise as seen from outside, beginning with the smallest index. ``created``
+    is the number of new faces, ``larger`` of those with more than three vertices, and ``merged`` of those that were
+    merged with a face of the same plane. ``extended`` is the number of extensions of a face to a new point of its
+    plane. ``straightened`` is the number of vertices removed because they lay in line with their neighbours.
     """
 
     faces: tuple[tuple[int, ...], ...]

@@ -82,7 +82,7 @@ def corners_by_neighbours(volume: Volume, of: Of = VERTICES) -> dict[int, Points
 
 
 def _slabs(solid: Voxels, extra: int) -> Iterator[tuple[int, Voxels]]:
-    """Yield the grid points in slabs along the first axis, each with the index of its first point.
+    """Yield the grid points in slabs along the first axis, each with its first index on this axis.
 
     A slab has a margin of one point all around. Along the first axis the margin repeats points of the neighbouring
     slabs. Along the other axes it is empty.

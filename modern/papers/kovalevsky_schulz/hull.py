@@ -66,10 +66,10 @@ def hull_cells(points: Points) -> CellList | Flat:
     The result is ``Flat`` if all points lie in one plane. The faces are those of the exact hull, sorted by their cycles
     of vertices. Each cycle begins with its lowest number.
 
-    For points in raster order, the paper's procedure finds the same vertices in the same order and the same faces, if a
-    face whose plane contains the new point counts as visible. Each inserted point is later in raster order than the
-    points before, and a point in line or in a plane with later points disappears, because all faces at it are visible.
-    Only the numbers of the faces and edges differ.
+    The paper's procedure finds the same vertices in the same order, and the same faces, if it inserts the points in
+    raster order and counts a face as visible if its plane contains the new point. A point that is in line or in a plane
+    with later points then disappears, because all faces at this point are visible. Only the numbers of the faces and
+    edges differ.
     """
     # Only the first and the last point of a column (the points with equal x and y) can be vertices of the hull.
     x, y, z = points[np.lexsort(points.T[::-1])].T
@@ -120,11 +120,12 @@ class Surface:
 class VoxelHull:
     """The convex hull of a voxel solid, and the counts of Kovalevsky and Schulz's method.
 
-    ``source`` names the solid in messages, and ``voxels`` is the number of its voxels. ``corners`` has the numbers of
-    local corners found by a test of 6 neighbours and of 26 neighbours. ``inserted`` has the local corners whose hull
-    was computed, of shape (n, 3), in raster order. ``order`` is the order in which they were inserted, or None if they
-    were not. ``surface`` is ``Flat`` if all points lie in one plane. ``of`` tells whether the points are centres or
-    corners of voxels. ``world`` maps voxel coordinates to physical coordinates, or is None if the position is unknown.
+    ``source`` names the solid in messages, and ``voxels`` is the number of its voxels. ``corners`` has the number of
+    local corners found by the test of 6 neighbours and the number found by the test of 26. ``inserted`` has the local
+    corners whose hull was computed, of shape (n, 3), in raster order. ``order`` is the order in which they were
+    inserted one by one, or None if they were not. ``surface`` is ``Flat`` if all points lie in one plane. ``of`` tells
+    whether the points are centres or corners of voxels. ``world`` maps voxel coordinates to physical coordinates, or is
+    None if the position is unknown.
     """
 
     source: str

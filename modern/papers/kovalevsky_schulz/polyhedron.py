@@ -229,8 +229,9 @@ def convex_polyhedron(points: Iterable[Sequence[int]], coplanar: Coplanar = VISI
     """Return the hull of points with integer coordinates as triangles. The points are inserted in the given order.
 
     ``coplanar`` determines how a face counts whose plane contains the new point: as ``visible``, which the paper's text
-    prefers, or as ``invisible``, which its number of 1404 triangles requires. Repeated points are ignored. For points
-    in one plane, which the paper does not treat, the result is ``Flat``, computed by ``modern.exact_hull``.
+    prefers, or as ``invisible``, which the printed number of 1404 triangles for a ball requires. Repeated points are
+    ignored. For points in one plane, which the paper does not treat, the result is ``Flat``, computed by
+    ``modern.exact_hull``.
 
     Raise ValueError if there are no points or ``coplanar`` is unknown.
     """

@@ -2,9 +2,9 @@
 
 Two faces are connected if they share an edge to which no third face belongs. A component must be closed, its faces must
 be plane, and all its edges must be convex. The exact hull of its vertices then confirms that its faces lie on the hull.
-If a component is not convex, the message names the deepest reflex edge, at which the solid can be divided. Alternatives
-are to use the hull of the component, or to merge faces that are within a distance of one plane. Messages count faces
-and vertices from 1 in the order of the file.
+If a component is not convex, the message names the deepest reflex edge, at which the solid can be divided. The
+user can instead replace the component by its hull, or merge faces that lie within a given distance of one plane.
+Messages count faces and vertices from 1 in the order of the file.
 """
 
 from collections.abc import Iterable, Iterator, Sequence

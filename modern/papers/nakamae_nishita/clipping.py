@@ -1,4 +1,4 @@
-"""Clip a scene at the near plane of a perspective: omit polyhedra on its near side, and cut those that it intersects.
+"""Clip a scene at the near plane of a perspective: omit polyhedra on the eye's side of it, cut those that it crosses.
 
 The plane is perpendicular to the direction of view. Its distance from the eye is a fraction that differs from the
 requested distance by at most 1e-15 of it. The intersections of edges with this plane are exact, so a clipped polyhedron

@@ -3,7 +3,8 @@
 Only pairs with overlapping bounding boxes are compared. The boxes are in floating point and are widened by more than
 the rounding error, so no pair is lost. A superfluous pair costs only the time for its tables.
 
-The tables are those of formulas (2) and (3), and have the paper's properties 1 to 4. The contour of V has the vertices
+The tables are those of formulas (2) and (3). By the paper's properties 1 to 4, they tell if two contours are apart, if
+one encloses the other, and which segments can intersect. The contour of V has the vertices
 P_i, and the contour of V' the vertices P_j, both clockwise. ``PL[j][i]`` tells on which side of the segment from P_i to
 P_(i+1) the vertex P_j lies, and ``LP[j][i]`` on which side of the segment from P_j to P_(j+1) the vertex P_i lies. 1 is
 the inner side, -1 the outer side, and 0 the line itself.
@@ -67,8 +68,8 @@ CROSSING = -4
 def values(lines: Sequence[Line], points: Sequence[tuple[int, int, int, int]]) -> Values | None:
     """Return the values of formula (1), a line's equation, for each line (rows) at each point (columns).
 
-    A value is positive if the point is on the inner side of the line. Return None if no point is on the inner side of
-    one of the lines. The contours then do not overlap (property 1).
+    A value is positive if the point is on the inner side of the line. Return None if there is a line with no
+    point on its inner side. The contours then do not overlap (property 1).
     """
     columns = []
     # Formula (1) for a point (x, y, w) and the line of a segment: positive on its right, the inside of the contour.
@@ -93,8 +94,8 @@ class Tables:
     def crossing_number(self, i: int, j: int) -> int:
         """Return d of the paper's formula (3), which tells how segment i of V and segment j of V' meet.
 
-        d is -4 if the segments intersect, -2 if an end of one segment lies on the other segment, -1 if two ends
-        coincide, and 0 otherwise, also for overlapping segments in one line.
+        d is -4 if the segments intersect, -2 if an end of one segment lies on the other segment, and -1 if two ends
+        coincide. Otherwise it is 0, even if the segments overlap in one line.
         """
         after_i, after_j = (i + 1) % len(self.pl[0]), (j + 1) % len(self.pl)
         # Both differences are 2 in absolute value if each segment has its ends on opposite sides of the other.

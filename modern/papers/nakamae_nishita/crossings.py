@@ -29,7 +29,7 @@ class Passage:
 
     @property
     def order(self) -> int:
-        """This contour's part of the order of invisibility (the number of contours that hide the segment's first end).
+        """This contour's share of the order of invisibility (the number of contours that hide the segment's first end).
 
         It is 1 if the segment begins behind the contour and leaves it (index -1), otherwise 0.
         """

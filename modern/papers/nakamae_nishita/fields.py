@@ -11,7 +11,8 @@ from modern.papers.nakamae_nishita.polyhedron import SceneError
 
 
 class Fields:
-    """The fields of a table in a scene file. A method reads and removes one field; ``done`` rejects all others.
+    """The fields of a table in a scene file. Each method reads and removes one field, except ``done``, which rejects
+    all remaining ones.
 
     Each method raises SceneError if the field is invalid.
     """

@@ -1,4 +1,4 @@
-"""Draw a scene with hidden lines removed: the paper's complete method, with its third step from sections 3.2 to 3.5."""
+"""Draw a scene with hidden lines removed: the paper's complete method. Sections 3.2 to 3.5 define its third step."""
 
 import math
 import time
@@ -116,9 +116,9 @@ def draw(
     """Return the drawing of a scene of convex polyhedra with the hidden lines removed.
 
     ``made`` may be a function that creates the polyhedra. The time of this function is then that of the first step.
-    ``without`` names the ``REFINEMENTS`` to switch off. With ``hidden``, the drawing has hidden pieces too: hidden
-    parts of edges, and edges between back faces. With ``check``, all polyhedra with overlapping contours are proved not
-    to intersect.
+    ``without`` names those refinements of the method (``REFINEMENTS``) that are switched off. With ``hidden``, the
+    drawing has hidden pieces too: hidden parts of edges, and edges between back faces. With ``check``, all polyhedra
+    with overlapping contours are proved not to intersect.
 
     Raise SceneError if polyhedra intersect, if a polyhedron is not entirely in front of the observation point and there
     is no near plane, or if a name in ``without`` is unknown.
@@ -218,8 +218,10 @@ def _pass(
 def _pieces(
     solids: Sequence[Solid], passages: Passages, back_ghosts: dict[Name, list[Span]], hidden: bool
 ) -> Iterator[Piece]:
-    """Yield the pieces of a segment. A piece is visible if no contour hides it, so that the paper's indices add up to
-    0.
+    """Yield the pieces of a segment. A piece is visible if no contour hides it.
+
+    The paper adds the order of invisibility (the number of contours that hide the segment's start) and the indices of
+    the intersections between the start and the piece. The piece is visible if the sum is 0.
 
     Ghost lines between front faces are omitted from all pieces, ghost lines between back faces from hidden pieces.
     """

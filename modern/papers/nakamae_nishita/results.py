@@ -67,8 +67,9 @@ def _crossing_numbers() -> Iterator[tuple[str, Sequence[str]]]:
 def _contour_sense() -> str:
     """Return the vector along a contour that formula (6) needs, ``(P_i - P_{i+1})`` or its opposite.
 
-    The product of this vector with P_A - P_B must have the sign of the index: positive if the segment enters the
-    contour. The print does not tell in which direction formula (6) traverses a contour, so an example decides.
+    The product of this vector with P_A - P_B must have the sign of the index of an intersection: positive if the
+    segment enters the contour. The print does not tell in which direction formula (6) traverses a contour, so an
+    example decides.
     """
     start, end, a, b = (0, 0), (0, 4), (-1, 1), (1, 2)
     # The segment from A to B crosses the square's left side inward, so formula (6) must be positive.

@@ -72,8 +72,9 @@ def round_base(name: str, sides: int, radius: Fraction) -> list[Vector]:
 def rotation(degrees: Fraction) -> tuple[Fraction, Fraction]:
     """Return the cosine and sine of an angle as fractions exactly on the unit circle.
 
-    The angle deviates by at most 1/1000 degree. Multiples of 90 degrees are exact. The tangent of half the remaining
-    angle is rounded to a fraction with a denominator of at most 100,000.
+    The angle deviates by at most 1/1000 degree. Multiples of 90 degrees are exact. If the angle is reduced by a
+    multiple of 90 degrees, the tangent of half the remainder is rounded to a fraction with a denominator of at most
+    100,000.
     """
     # With t = tan(angle / 2), ((1 - t^2) / (1 + t^2), 2 t / (1 + t^2)) is a rational point of the circle.
     quarters = round(degrees / 90)
@@ -107,7 +108,7 @@ def placed(polyhedron: Polyhedron, move: Move, name: str) -> Polyhedron:
 
 
 def _normal(name: str, corners: Sequence[Vector]) -> Vector:
-    """Return the normal of a convex polygon from whose tip the corners are seen to run counterclockwise."""
+    """Return the normal of a convex polygon. Seen from the tip of the normal, the corners run counterclockwise."""
     if len(corners) < 3:
         raise SceneError(f"{name}: expected at least 3 corners, found {len(corners)}")
     # The first corner that is not in line with its neighbours determines the normal, and its sense if it is convex.

@@ -137,7 +137,7 @@ def _face_plane(corners: Sequence[Homogeneous]) -> Plane:
 
 
 def _merged(edge: Edge, joined: Sequence[int]) -> Edge:
-    """Return an edge, with the kind ``joined`` if its two faces were merged and it is not on the contour."""
+    """Return an edge. Its kind becomes ``joined`` if its two faces were merged and it is not on the contour."""
     first, last = edge.faces[0], edge.faces[-1]
     within = edge.kind in (visible.INNER, visible.BACK) and joined[first] == joined[last]
     return replace(edge, kind=visible.JOINED) if within else edge

@@ -27,9 +27,10 @@ def voxels_of(region: Voxels) -> list[Voxel]:
 
 
 def half_cell_expansion(region: Voxels) -> Voxels:
-    """Return the half-cell expansion E(S): the cells of a lattice shifted by half a cell that meet the region (3.2.3).
+    """Return the half-cell expansion E(S) of a region (3.2.3).
 
-    Each voxel of the region meets eight such cells.
+    The lattice of voxels is shifted by half a cell, and E(S) consists of the shifted cells that meet the region. Each
+    voxel of the region meets eight of them.
     """
     expanded = np.zeros([size + 1 for size in region.shape], dtype=np.bool_)
     for step in product((0, 1), repeat=3):
@@ -38,7 +39,7 @@ def half_cell_expansion(region: Voxels) -> Voxels:
 
 
 def is_simple(region: Voxels) -> bool:
-    """Return True if a set of voxels is simple: 6-connected, and met by each line along an axis in one run (3.2.3)."""
+    """Return True if a set of voxels is simple: 6-connected, and without a gap in any row along an axis (3.2.3)."""
     if components(region) != 1:
         return False
     for axis in range(3):
@@ -50,7 +51,7 @@ def is_simple(region: Voxels) -> bool:
 
 
 def is_midpoint_convex(region: Voxels) -> bool:
-    """Return True if, for any two voxels of a region, one of their midpoint voxels belongs to the region (3.2.2)."""
+    """Return True if, for any two voxels of a region, a voxel at their midpoint belongs to the region (3.2.2)."""
     inside = set(voxels_of(region))
     return all(any(z in inside for z in midpoint_cover(x, y)) for x, y in combinations(inside, 2))
 
@@ -68,8 +69,9 @@ def midpoint_cover(x: Voxel, y: Voxel) -> list[Voxel]:
 def is_digitally_convex(region: Voxels) -> bool:
     """Return True if a region of voxels passes Kim and Rosenfeld's test of digital convexity (3.2.3).
 
-    The region must be simple. Every semidigital point, which has at least one integer coordinate, on the faces of the
-    hull of the region's digital points must be near one of these digital points: less than 1 away on every axis.
+    The region must be simple (see ``is_simple``). The test examines the semidigital points of the hull of its voxel
+    centres: the points on the faces with at least one integer coordinate. Each must be less than 1 away, on every
+    axis, from the centre of a voxel of the region.
     """
     if not is_simple(region):
         return False
@@ -82,8 +84,10 @@ def semidigital_segments(hull: ExactHull) -> Iterator[tuple[Place, Place]]:
     """Yield the segments in which the planes x = k, y = k and z = k, with integers k, intersect the faces of a hull.
 
     For a face that lies in such a plane, only its intersections with the other two kinds of planes are yielded. This is
-    enough: a point in an open unit square of the face's plane is near all four corners of the square. One of the
-    corners is a digital point of the region if the face's points on the sides of the square are near a digital point.
+    enough for the test in ``is_digitally_convex``. A point within a unit square of the face's plane is less than 1
+    away, on every axis, from all four corners of the square. One of the corners belongs to the region if the points on
+    the sides of the square pass the test.
+
     The face of a flat hull is its polygon. If the hull is a segment, the segment itself is yielded, because the region
     can be simple only if the segment is along an axis.
     """
@@ -116,7 +120,7 @@ def _boundary_points(polygon: list[Place], axis: int, at: Fraction) -> Iterator[
 
 
 def _covered(segment: tuple[Place, Place], points: list[Voxel]) -> bool:
-    """Return True if every point of a segment is near one of the given voxels."""
+    """Return True if every point of a segment is less than 1 away, on every axis, from one of the given voxels."""
     p, q = segment
     # Only a point within the box of the segment, enlarged by less than 1, can be near it.
     box = [range(math.floor(min(a, b)), math.ceil(max(a, b)) + 1) for a, b in zip(p, q, strict=True)]

@@ -24,8 +24,8 @@ from modern.papers.yau_srihari.search import Candidates, Normal, Search, normal_
 def reduced_tree(tree: Quadtree) -> Quadtree:
     """Return a floor tree without the columns that cannot be vertices of the envelope (sections 4.6.1 and 5).
 
-    The points of the remaining columns are vertices of a lower chain along x = const, and of the lower chain of these
-    vertices along y = const.
+    For each x, only the vertices of the lower chain (the lower side of the plane hull) remain. Of these, for each y,
+    only the vertices of the lower chain remain.
     """
     for axis in (0, 1):
         vertices = [(at, t, z) for at in range(tree.side) for t, z in lower_chain(trees.line(tree, axis, at))]
@@ -50,7 +50,7 @@ def outline(places: Iterable[Place]) -> list[Place]:
 
 
 def chain_above(start: Place, end: Place, points: Grid) -> list[Point]:
-    """Return the lower chain of the points whose positions (x, y) lie on the segment from ``start`` to ``end``."""
+    """Return the lower side of the hull of those points whose (x, y) lie on the segment from ``start`` to ``end``."""
     dx, dy = end[0] - start[0], end[1] - start[1]
     x, y = points[:, 0] - start[0], points[:, 1] - start[1]
     # The product with the segment's direction orders the points along the segment.
@@ -65,8 +65,8 @@ def chain_above(start: Place, end: Place, points: Grid) -> list[Point]:
 def over_edges(corners: list[Place], points: Grid, whole: bool) -> list[tuple[Point, Point]]:
     """Return the envelope's edges above the border of H(A), the plane hull of the columns' positions, counterclockwise.
 
-    These are all edges of the lower chains above the border or, with ``whole``, a single edge above each edge of H(A),
-    as the paper prints.
+    The points above each edge of H(A) lie in an upright plane, and the edges are those of the lower side of their hull.
+    With ``whole``, a single edge above each edge of H(A) replaces them, as the paper prints.
     """
     edges: list[tuple[Point, Point]] = []
     for start, end in zip(corners, corners[1:] + corners[:1], strict=True):
@@ -172,7 +172,7 @@ def envelope(floor: Quadtree, printed: Printed) -> Envelope:
 
 
 def _queue(edges: Iterable[Edge]) -> dict[Edge, Normal]:
-    """Return the first queue: the edges above the border of the plane hull, reversed, with normals of upright faces."""
+    """Return the initial queue: the reversed edges over the border, each with the normal of the upright face at it."""
     return {(end, start): normal_of(start, end, (start[0], start[1], start[2] + 1)) for start, end in edges}
 
 
@@ -259,7 +259,7 @@ def _update_queue(face: Face, edge: Edge, queue: dict[Edge, Normal]) -> tuple[tu
 
 
 def _entered(tree: Quadtree, faces: Iterable[Face]) -> Quadtree:
-    """Return the tree with the heights of all faces. Mark their columns as done, except those of vertices."""
+    """Return the tree with the heights of all faces. Mark all columns of faces as done, except those of vertices."""
     # From above the vertices run clockwise, and the plane's coefficient of z must be positive.
     reversed_faces = []
     for face in faces:
@@ -276,7 +276,7 @@ def _entered(tree: Quadtree, faces: Iterable[Face]) -> Quadtree:
 
 
 def _polygon(start: Point, end: Point, in_plane: list[Point]) -> tuple[Point, ...]:
-    """Return the vertices of the face of two points and the points ``in_plane``, beginning with ``start``."""
+    """Return the vertices of the face of ``start``, ``end`` and the points ``in_plane``, beginning with ``start``."""
     point_at = {(x, y): (x, y, z) for x, y, z in (start, end, *in_plane)}
     clockwise = [point_at[place] for place in reversed(outline(point_at))]
     first = clockwise.index(start)

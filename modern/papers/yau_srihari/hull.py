@@ -33,7 +33,10 @@ def components(volume: NDArray[np.bool_]) -> int:
 
 
 def _touching(starts: Grid, ends: Grid, step: int) -> tuple[Grid, Grid]:
-    """Return the pairs of runs that have common faces. The cells of neighbouring lines are ``step`` cells apart."""
+    """Return the pairs of runs (consecutive voxels of a line) that touch each other in a common face of two voxels.
+
+    In the flat array, neighbouring cells of adjacent lines are ``step`` cells apart.
+    """
     first = np.searchsorted(ends, starts + step, side="right")
     count = np.searchsorted(starts, ends + step, side="left") - first
     pair = np.repeat(np.arange(len(starts)), count)
@@ -65,8 +68,8 @@ class OctreeHull:
     the hull. ``lowest`` is the quadtree of the floor (the lowest voxel of each column), and ``highest`` that of the
     ceiling (the highest voxel of each column). ``lower`` is the convex envelope of the floor, and ``upper`` the convex
     envelope of the ceiling with negated heights. ``filled`` has the voxels of the hull in the shape of the volume.
-    ``components`` is the number of 6-connected components of the volume. If it is 1, section 3.3 takes the digital
-    points of the Euclidean hull for the digital convex hull.
+    ``components`` is the number of 6-connected components of the volume. If it is 1, section 3.3 equates the digital
+    convex hull with the digital points of the Euclidean hull.
     """
 
     side: int

@@ -7,7 +7,7 @@ each level.
 
 As in section 5, each quadrant i of the square (x, y) belongs to two octants, sons of a node: son 2 i is the lower half
 of the node's cube over the quadrant, and son 2 i + 1 the upper half. Quadrant i is the half i mod 2 in x and the half
-i div 2 in y. The figures with the paper's own numbers of quadrants are lost.
+i div 2 in y. The figures that show the paper's own numbers of quadrants are lost.
 
 References
 ----------
@@ -180,7 +180,7 @@ def _bits(numbers: Grid, count: int, old_distance: int, new_distance: int) -> Gr
 
 
 def _within(a: Octree, b: Octree, deeper: int) -> NDArray[np.bool_]:
-    """Return a mask of the leaves of ``a`` that lie in a leaf of ``b`` whose level is at least ``deeper`` less."""
+    """Return a mask of the leaves of ``a`` that lie in a leaf of ``b`` and are at least ``deeper`` levels below it."""
     if not len(b.codes):
         return np.zeros(len(a.codes), dtype=np.bool_)
     # The voxels of a leaf have consecutive codes, so only the last leaf of b whose code is not greater can contain it.

@@ -16,9 +16,9 @@ class Printed:
         Theorem 2 chooses the face with the greatest angle between outward normals. But the face in the
         supporting plane has the least angle.
     start
-        Section 5 starts from one upright face over each edge of H(A). Points of the floor above such an edge may lie
-        below this face. Therefore every edge of the lower chain of the points above an edge of H(A) needs an upright
-        face.
+        Section 5 starts from one upright face over each edge of H(A), the plane hull of the columns' positions (x, y).
+        Points of the floor above such an edge may lie below this face. Therefore an upright face is needed at every
+        edge of the lower side of the hull of these points.
     triangles
         Section 4.6 assumes that all faces are triangles. If four or more vertices lie in one supporting plane,
         triangles chosen edge by edge may overlap. The face is the polygon of all of these vertices.
@@ -31,7 +31,7 @@ class Printed:
         the known face, where no point can be, counts as lying in this plane.
     corners
         Section 4.6.2 assumes that the angle is least and greatest at corners of a square. This holds only if the whole
-        square lies beyond the edge. A square that the edge's line crosses has to be divided.
+        square lies beyond the edge of the known face. A square that the edge's line crosses has to be divided.
     marks
         Section 5 marks every digital point of a face and searches only unmarked points. But the vertices of a face are
         vertices of neighbouring faces too, so they must not be marked.

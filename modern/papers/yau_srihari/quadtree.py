@@ -35,8 +35,8 @@ class Quadtree:
     """Heights over a square of columns [x, y] whose side is a power of two.
 
     ``values`` has the height of each column, or 0 for a missing column. ``there`` is True for columns that exist, and
-    ``marked`` for columns that are known to belong to a face. ``sides`` has, for each column, the side of the leaf (a
-    square of columns of one height) that contains the column.
+    ``marked`` is True for columns that are known to belong to a face. ``sides`` has, for each column, the side of the
+    leaf (a square of columns of one height) that contains the column.
     """
 
     values: Grid
@@ -50,18 +50,18 @@ class Quadtree:
 
     @property
     def low(self) -> int | None:
-        """The least height of unmarked columns, which is the value of a node of the paper's floor tree, or None."""
+        """The least height of unmarked columns (the value of a node of the paper's floor tree), or None without any."""
         unmarked = self.values[self.there & ~self.marked]
         return int(unmarked.min()) if unmarked.size else None
 
     @property
     def high(self) -> int | None:
-        """The greatest height of unmarked columns, or None without columns. Only section 4.6.2 as printed needs it."""
+        """The greatest height of unmarked columns, or None without any. Only section 4.6.2 as printed needs it."""
         unmarked = self.values[self.there & ~self.marked]
         return int(unmarked.max()) if unmarked.size else None
 
     def is_leaf(self) -> bool:
-        """Return True if all columns of the square belong to one leaf, so that they have one height."""
+        """Return True if all columns of the square belong to one leaf and therefore have the same height."""
         return bool(self.there.all()) and int(self.sides.min()) >= self.side
 
 
@@ -123,7 +123,7 @@ def heights(tree: Quadtree) -> dict[Place, int]:
 def line(tree: Quadtree, axis: int, at: int) -> Iterator[tuple[int, int]]:
     """Return the columns whose coordinate on ``axis`` is ``at``, as pairs of their other coordinate and their height.
 
-    In the paper this line is a binary subtree of the quadtree, with two sons at every node (TR-170; section 5).
+    In the paper this line is a binary subtree of the quadtree, with two sons at every node (section 5).
     """
     there, values = (grid[at] if axis == 0 else grid[:, at] for grid in (tree.there, tree.values))
     return zip(np.flatnonzero(there).tolist(), values[there].tolist(), strict=True)

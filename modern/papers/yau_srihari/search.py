@@ -105,8 +105,7 @@ class Search:
         """Return bounds for the scores of points in a square: the paper's delta_1 and delta_2.
 
         At least one point of the square has a score (see :meth:`score`) of at least delta_1, and no point has a score
-        above delta_2. Both
-        are None if the corners of the square do not determine them.
+        above delta_2. Both are None if the corners of the square do not determine them.
 
         The lower a point is, the smaller is the angle between the known face and the face through the point. The least
         height in the square therefore gives both bounds, because no point is lower and one point has this height. If
