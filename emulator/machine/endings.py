@@ -173,10 +173,10 @@ def ended_by(
 ) -> Ending:
     """Return the ending of a run for the reason, such as AT_BOUNDS, with which the interpreter or the kernel returned.
 
-    The run ended at the instruction ``at``, after the IF or computed GO TO with the number ``decision``.  ``address``
-    is the storage field that the instruction uses.  For AT_UNDEFINED, ``kind`` is the kind of this field.
-    ``subscripts`` holds the subscripts for AT_BOUNDS, and the value of the variable for AT_SELECT.  ``costly`` is the
-    work of costly operations.
+    The run ended at the instruction ``at``.  ``decision`` is the instruction, counted from 1, of the last IF or
+    computed GO TO before it.  ``address`` is the storage field that the instruction ``at`` uses, and for AT_UNDEFINED,
+    ``kind`` is the kind of this field.  ``subscripts`` holds the subscripts for AT_BOUNDS, and the value of the
+    variable for AT_SELECT.  ``costly`` is the part of the work that slow operations did.
     """
     if reason == AT_STOP:
         return Ending("stop" if program.code[at].second == 0 else "end")

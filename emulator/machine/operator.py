@@ -86,7 +86,7 @@ PUNCHED = "PUNCHED"
 
 
 def read_loads(name: str, text: str) -> tuple[list[Load], dict[str, str]]:
-    """Return the parts of an operator's file, one for each machine, and the decks in the file.  Raise FileError.
+    """Return the parts of an operator's file, one for each machine, and its decks.  Raise FileError if it is invalid.
 
     ``LOAD`` with the names of a program and a deck begins the lines of a machine.  ``CARDS`` with a name begins a deck,
     and each ``CARD`` line holds one of its cards.

@@ -35,8 +35,8 @@ class Options:
         With ``strict`` a subscript outside its array ends the run.  With ``core`` it reaches the neighbouring field, as
         on the machine.
     limit
-        The work after which a run ends: one unit for each statement, pass of an indexed list, number read or written,
-        and record.  An operation that takes longer than a statement counts as several (:mod:`emulator.numbers.work`).
+        The work after which a run ends.  Each statement, pass of an indexed list, number read or written, and record is
+        one unit; an operation that takes longer than a statement is several (:mod:`emulator.numbers.work`).
     uncut
         Keep the numbers on the punched cards as they were before the fields truncated them (:attr:`Result.uncut`).
     hopper

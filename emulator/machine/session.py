@@ -46,7 +46,7 @@ class Action:
     """An action of the operator.
 
     - ENTER: type ``text`` for ACCEPT.
-    - START: continue.  With ``unasked`` it was pressed because nobody is at the console; a PAUSE then adds a notice.
+    - START: continue.  With ``unasked``, START was pressed automatically; after a PAUSE this is reported in a notice.
     - STEP: execute ``number`` statements.
     - STOP: end the run and keep its results.
     - ATTN: stop a running machine before its next statement.  A second ATTN stops it at once, even within a list of an

@@ -34,7 +34,7 @@ class Rules(NamedTuple):
     The fields from ``sticky`` to ``as_1962`` are flags, 0 or 1.
 
     - ``digits``: the number of digits of a mantissa, P.
-    - ``limit``: ``10**P``, which every mantissa is below.
+    - ``limit``: ``10**P``, one more than the largest mantissa.
     - ``least``: ``10**(P - 1)``, the smallest normalized mantissa.
     - ``guard``: the digits beyond P that the smaller operand of a sum keeps.
     - ``sticky``: digits of the smaller operand beyond the guard digits still count as a positive fraction in rounding.

@@ -152,7 +152,7 @@ def write_f(
 def fill(
     columns: MutableSequence[int], at: int, end: int, mantissa: int, count: int, point: int, right: int, rules: Rules
 ) -> None:
-    """Write ``count`` digits of a mantissa, ending before column ``right``, with a point in column ``point``.
+    """Write the first ``count`` digits of a mantissa to the left of column ``right``, and a point in column ``point``.
 
     Zeros fill the columns between the point and the digits.  Other columns of the field become blank.
     """

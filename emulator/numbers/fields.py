@@ -2,9 +2,9 @@
 
 Output (C26-5619 p. 38-40): an E field truncates and never rounds, a number too large for its field is written as E14.8,
 and an I field loses high-order digits.  Input (p. 14, 35-38): a punched point overrides that of the FORMAT, digits
-beyond those of the profile are truncated, and a minus zero keeps its sign (thesis p. 109, last line of example 4).  The
-interpretation of blanks is OPEN-QUESTIONS 6.  emulator/numbers/columns.py does the conversion on character codes.  This
-module provides strings and messages.
+beyond those of the profile are truncated, and a minus zero keeps its sign (thesis p. 109, last line of example 4).
+OPEN-QUESTIONS 6 treats blanks in a number.  emulator/numbers/columns.py does the conversion on character codes; this
+module adds strings and messages.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ _REMARKS = {
 class Remark:
     """A warning about a number that was read.  ``status`` is defined in emulator/numbers/columns.py.
 
-    For a floating-point number with too many digits, ``digits`` is their number and ``digits_kept`` the number kept.
+    For a floating-point number with too many digits, ``digits`` counts its digits and ``digits_kept`` those kept.
     For an integer with too many digits, ``text`` is the integer as punched.
     """
 

@@ -149,8 +149,8 @@ def _out_of_range(size: int, exponent: int, count: int, rules: Rules) -> int:
 def _exact_power(size: int, power_of_ten: int, count: int, rules: Rules, width: int = 0) -> tuple[int, int]:
     """Return ``(size * 10**power_of_ten) ** count``, truncated or rounded to the digits of the rules.
 
-    Intermediate products keep ``width`` digits, by default GUARD more than the result has.  If these do not decide the
-    last digit of the result, the power is computed again with all digits.
+    Intermediate products keep ``width`` digits, by default GUARD more than the result has.  If these digits do not
+    determine the result, the power is computed again with all digits.
     """
     times, width = abs(count), width or rules.digits + GUARD
     whole, scale, error = 1, 0, 0

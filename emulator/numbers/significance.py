@@ -65,7 +65,7 @@ def estimate(values: Sequence[Fraction | int | None], digits: float) -> Estimate
 
 
 def _float(value: Fraction) -> float:
-    """Return a ratio as a float of at most 1E100.  Beyond that size, no digit is significant anyway."""
+    """Return a deviation relative to the mean as a float, at most 1E100, beyond which no digit is significant."""
     return float(value) if abs(value) < 10**100 else 1e100
 
 

@@ -128,7 +128,7 @@ def with_library(cards: Sequence[str], library: Sequence[str], source: str) -> l
 
 
 def numbered(cards: Sequence[str], first: int) -> list[str]:
-    """Return the cards with numbers from ``first`` on in columns 77 to 80, which replace any numbers there."""
+    """Return the cards with new card numbers in columns 77 to 80, counted from ``first``."""
     return [f"{card[:_NUMBER_COLUMN]:<{_NUMBER_COLUMN}}{_number(index)}" for index, card in enumerate(cards, first)]
 
 

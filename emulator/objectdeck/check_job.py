@@ -99,7 +99,7 @@ def differences(expected: str, punched: str) -> list[str]:
 
 
 def compare(expected_name: str, punched_name: str) -> int:
-    """Print the differences of two decks by class.  Return 1 if one belongs to no known class."""
+    """Print the differences of two decks by class.  Return 1 for an unknown difference, another order or no cards."""
     expected, punched = deck(expected_name), [card[:77].rstrip() for card in deck(punched_name)]
     common = Counter(expected) & Counter(punched)
     classes: Counter[str] = Counter()

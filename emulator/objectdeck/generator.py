@@ -59,7 +59,7 @@ def generate(program: Program, core: int = CORES[-1]) -> ObjectProgram:
 class _Generator:
     """The state of the translation of one program to machine code.
 
-    ``places`` holds the position of each instruction of the emulator's object code.  ``formats`` is the number of
+    ``places`` holds the position of the code for each instruction of the emulator.  ``formats`` is the number of
     FORMATs translated so far.  If an instruction does not use all of its twelve digits, IBM's compiler filled them with
     old digits from its buffer: a PAUSE has the last ten digits of the last call (``operands``), and the instruction
     that begins a DO may have one digit of an earlier address (``unused``).

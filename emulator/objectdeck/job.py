@@ -114,7 +114,7 @@ def clearing(program: Program, labels: Collection[str]) -> Iterator[str]:
     """Yield cards that set all arrays of a program to zero.
 
     On the 1620, an array begins with the previous contents of the storage.  The results of the thesis's programs depend
-    on them, because the programs read the element after the last point.
+    on these contents, because the programs read the element after the last point.
     """
     names = {entry.name for entry in program.storage.entries}
     free = (str(n) for n in range(9001, 9999) if str(n) not in labels)
