@@ -52,7 +52,10 @@ def compiler() -> Compiler:
 
 
 def built(deck: Deck, fortran: Compiler, folder: Path) -> Path:
-    """Translate a source deck, compile it with -O2 in ``folder`` and return the program. Raise NoCompiler."""
+    """Translate a source deck, compile it with -O2 in ``folder`` and return the program.
+
+    Raise NoCompiler if the compiler fails.
+    """
     source, program = folder / "deck.f90", folder / "deck"
     source.write_text(translated(deck, "fortran"), encoding="ascii")
     extra = _EXTRA.get(Path(fortran.command[0]).name, ())

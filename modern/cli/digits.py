@@ -92,7 +92,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _runs(args: argparse.Namespace, studied: Numbers) -> SampledNumbers:
-    """Return the stochastic runs that the options request. Raise UsageError."""
+    """Return the stochastic runs that the options request. Raise UsageError if the options are invalid."""
     if isinstance(studied, SampledNumbers):
         if args.runs is not None or args.seed is not None or args.proportional or args.majority:
             raise UsageError(

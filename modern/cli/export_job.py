@@ -88,7 +88,10 @@ def _change(change: Change) -> str:
 
 
 def _data(name: str) -> Deck:
-    """Return the deck of a file, of an example, or of a name such as ``example4/punched``.  Raise EmulatorError."""
+    """Return the deck of a file, of an example, or of a name such as ``example4/punched``.
+
+    Raise EmulatorError if the deck cannot be read.
+    """
     from modern.publication.decks import named_deck
 
     try:

@@ -57,7 +57,7 @@ def _in_space(volume: Volume) -> Volume:
 
 
 def _printed(args: argparse.Namespace) -> Printed:
-    """Return the statements of the paper that the options select to be applied as printed. Raise UsageError."""
+    """Return the rules that ``--literal`` or ``--printed`` leaves as printed. Raise UsageError for an unknown rule."""
     if args.literal:
         return LITERAL
     try:

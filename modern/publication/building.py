@@ -25,7 +25,8 @@ class BuildError(Exception):
 def run(name: str, build: Callable[[], str]) -> int:
     """Run a build and print the summary that it returns.
 
-    Return 0, or 2 after a message of one line on standard error if the build fails. ``name`` begins the message.
+    Return the exit code: 0, or 2 after a one-line message on standard error if the build fails. ``name`` begins the
+    message.
     """
     try:
         print(build())

@@ -307,7 +307,7 @@ def _packed(folder: Path, executable: frozenset[str]) -> bytes:
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Pack the results of all other builds. Return 0, or 2 after a message of one line."""
+    """Pack the results of all other builds. Return the exit code: 0, or 2 after an error message."""
     parser = ArgumentParser(prog="deposit", description="Pack a deposit for archives.")
     parser.add_argument("out", nargs="?", type=Path, default=DIST, help="output folder (default: dist)")
     parser.add_argument("--rows", type=Path, help="a folder with results of studies (rows) to include")

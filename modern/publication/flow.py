@@ -102,7 +102,7 @@ def _parts(program: Program) -> list[_Part]:
 
 
 def _box(program: Program, part: _Part, parts: Sequence[_Part]) -> Box:
-    """Return the box of a part. In this step, an exit names its target by the index in ``parts``."""
+    """Return the box of one statement's instructions. In this step, exits name their targets by index in ``parts``."""
     index_of = {known.start: index for index, known in enumerate(parts)}
     code = program.code[part.start : part.end]
     last = code[-1]

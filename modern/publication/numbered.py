@@ -56,7 +56,7 @@ def numbered(file: str) -> tuple[str, tuple[Item, ...], tuple[str, str]]:
 
 
 def _split_item(text: str) -> tuple[int, str, str]:
-    """Return the number, the title and the rest of an item without the indentation of its lines."""
+    """Return the number and the title of an item, and the text after the title without the indentation of its lines."""
     body = re.sub(r"^ {3,4}", "", text, flags=re.MULTILINE)
     if bold := _BOLD_TITLE.match(body):
         title = " ".join(bold[2].replace("`", "").split()).rstrip(".")

@@ -252,7 +252,7 @@ class Record:
             self._states.setdefault(line.index, []).append((count, _determining(session)))
 
     def forget(self) -> None:
-        """Forget the kept states, because an action of the operator may change the rest of the run."""
+        """Forget the kept states, because an action of the operator may change how the run continues."""
         self.repeats, self._states = 0, {}
 
     def take(self) -> list[int]:
@@ -284,7 +284,7 @@ def _torn(program: Program) -> frozenset[int]:
 
 
 def _determining(session: Session) -> tuple[Any, ...]:
-    """Return the storage, the accumulators and the number of cards read, which determine the rest of a run."""
+    """Return the storage, the accumulators and the number of cards read, which determine how a run continues."""
     state = session.state
     registers = (state.fac, state.fixed, state.last_card, session.devices.position)
     return list(state.values), list(state.kinds), *registers

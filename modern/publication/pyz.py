@@ -52,7 +52,7 @@ def _installed(package: str) -> Iterator[tuple[str, bytes]]:
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Build the file in the named folder, by default ``dist``. Return 0, or 2 after a message of one line."""
+    """Build the file in the named folder, by default ``dist``. Return the exit code: 0, or 2 after an error message."""
     out = Path(arguments[0]) if arguments else DIST
 
     def build() -> str:

@@ -56,7 +56,7 @@ class Pane:
 
 @dataclass(frozen=True, slots=True)
 class Plate:
-    """The picture of one step of a method. ``points`` has pairs of a point and True if the point is hidden."""
+    """The picture of one step of a method. ``points`` pairs each point with True if it is hidden, else False."""
 
     name: str
     strokes: tuple[Stroke, ...] = ()

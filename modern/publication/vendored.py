@@ -137,7 +137,7 @@ def left_out(names: Mapping[str, bytes]) -> str:
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Collect the wheels in the named folder, by default ``dist/wheels``.  Return 0, or 2 after a one-line message."""
+    """Collect the wheels in the named folder, by default ``dist/wheels``.  Return exit code 0, or 2 after an error."""
     return run("vendored", lambda: download(Path(arguments[0]) if arguments else WHEELS))
 
 

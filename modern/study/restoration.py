@@ -241,7 +241,7 @@ def _restored_copies(tasks: Sequence[tuple[str, Group, int]], workers: int) -> I
 
 
 def restored_copy(damage: str, group: Group, number: int, restore: Restorer) -> Copy:
-    """Damage and restore one copy of a group, and count the cards of each kind.
+    """Damage and restore one copy of a group, and count the cards by result, as in ``KINDS``.
 
     If the restorer changes an undamaged card, this card counts as wrong.
     """
@@ -293,7 +293,7 @@ def blind_restorer() -> Iterator[Restorer]:
 
 
 def summary(copies: Sequence[Copy]) -> list[tuple[str, ...]]:
-    """Return a table with the number of emended cards and of wrong readings for each damage, class and ground.
+    """Return a table with the number of emended cards and of wrong readings for each damage, certainty and ground.
 
     The last column counts the errors in copies of the listings.  For cards without a restored text, the table gives
     the number of damaged cards.  Intervals are exact 95 % intervals (Clopper and Pearson).

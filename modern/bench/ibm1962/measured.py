@@ -44,7 +44,7 @@ class Measured:
 def measure(cases: Sequence[tuple[Statement, tuple[str, ...]]], deck: Sequence[str]) -> list[Measured]:
     """Execute statements with the library in ``deck``, and return them with the results.
 
-    Raise the errors of ``simulator.run_jobs``.
+    Raise Unavailable if the simulator is missing, or Failed if a run fails.
     """
     outcomes = execute(cases, deck)
     return [Measured(*case, outcome) for case, outcome in zip(cases, outcomes, strict=True)]

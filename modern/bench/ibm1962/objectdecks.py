@@ -88,7 +88,8 @@ def execute(
 ) -> Run:
     """Run the object deck of a program on IBM's library, with data cards, typed lines and switches at each START.
 
-    Raise Failed, Unavailable or EmulatorError.
+    Raise Failed if the run does not finish, Unavailable if library or simulator is missing, and EmulatorError if the
+    program cannot become an object deck.
     """
     deck = _complete(program, library(), CORE)
     return run(deck, core=CORE, cards=cards, keys=keys, starts=starts, seconds=SECONDS)

@@ -192,7 +192,10 @@ def _result(log: str, punched: Sequence[str]) -> Run:
 
 
 def _typewriter(command: list[str], folder: Path, keys: Sequence[str], seconds: float) -> str:
-    """Run the simulator and type one of the lines ``keys`` at each prompt.  Return all of its output.  Raise Failed."""
+    """Run the simulator, type one of the lines ``keys`` at each prompt, and return all output of the simulator.
+
+    Raise Failed if the simulator takes longer than ``seconds`` or prompts for more lines than ``keys`` has.
+    """
     deadline = time.monotonic() + seconds
     waiting = list(keys)
     log = b""

@@ -90,7 +90,7 @@ def print_report(args: argparse.Namespace, lines: Iterable[str]) -> None:
 
 
 def write_folder(folder: str, texts: Mapping[str, str], encoding: str = "ascii") -> None:
-    """Write texts to the files of the given names in a folder, which is made if it does not exist.  Raise FileError."""
+    """Write texts to files, by name, in a folder, which is made if missing.  Raise FileError if that fails."""
     from emulator.files import reason, writing_bytes  # imported here because --help does not need it
 
     try:

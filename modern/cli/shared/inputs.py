@@ -28,18 +28,18 @@ _SAMPLE = re.compile(r"([a-z]+(?:-[a-z]+)*|.+\.toml)(?:/([0-9]{1,6}))?/([0-9]{1,
 
 
 def read_input(name: str) -> bytes:
-    """Return the bytes of a file (``-``: standard input) or of an example.  Raise EmulatorError."""
+    """Return the bytes of a file (``-``: standard input) or an example.  Raise EmulatorError if it is unreadable."""
     text = None if name == "-" or os.path.exists(name) else _example(name)
     return read_bytes(name, limit=POINTS_LIMIT) if text is None else text.encode("ascii")
 
 
 def points_of(name: str) -> Input:
-    """Return the points of a file in any format, or of an example.  Raise EmulatorError."""
+    """Return the points of a file in any format, or of an example.  Raise EmulatorError if that fails."""
     return parse_bytes(read_input(name), source_name(name))
 
 
 def deck_of(name: str, points: bool = False) -> Deck:
-    """Return the deck of a file or of an example.  Raise EmulatorError.
+    """Return the deck of a file or of an example.  Raise EmulatorError if that fails.
 
     points: the deck must hold points.  If the file has points in another format, the error message names the command
     that makes a deck of it.
@@ -67,7 +67,7 @@ def punch_epsilon(deck: Deck, epsilon: str) -> Deck:
 
 
 def deck_for(program: str, name: str) -> Deck:
-    """Return the deck ``name`` as the input of a program; for program 1 it must hold points. Raise EmulatorError."""
+    """Return a deck for a program. Raise EmulatorError if it is invalid or, for program 1, does not hold points."""
     return deck_of(name, points=program in ("program1", "program1_examples"))
 
 

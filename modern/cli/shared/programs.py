@@ -40,14 +40,14 @@ def source_deck(args: argparse.Namespace) -> Deck:
 
 
 def load_program(args: argparse.Namespace) -> Program:
-    """Return the compiled ``PROGRAM.f``.  Raise EmulatorError."""
+    """Return the compiled ``PROGRAM.f``.  Raise EmulatorError if the program cannot be read or compiled."""
     if args.program in programs.NAMES:
         return programs.program(args.program, layers_of(args))
     return compile_deck(source_deck(args))
 
 
 def machine_options(args: argparse.Namespace) -> Options:
-    """Return the machine options that the arguments describe. Raise UsageError."""
+    """Return the machine options that the arguments describe. Raise UsageError for an invalid argument."""
     arithmetic = number_system(args.arithmetic, "--arithmetic")
     if args.limit < 1:
         raise UsageError(f"--limit: expected at least 1 statement, found {args.limit}")

@@ -97,7 +97,7 @@ def streaming(args: argparse.Namespace, show: Callable[[str], None] | None = Non
 
     show: a function that shows a typed line to an operator at the terminal, or None.  With ``show``, typed lines are
     not repeated on standard error if standard error is a terminal.  A named file is written completely at the end of
-    the run, and an exception leaves an existing file unchanged.  Raise FileError.
+    the run, and an exception leaves an existing file unchanged.  Raise FileError if a file cannot be written.
     """
 
     def destination(path: str | None) -> _Destination:

@@ -19,7 +19,7 @@ _SPACES = dict(zip(("lps", "ras"), ANATOMICAL, strict=False))
 def scan_of(args: argparse.Namespace) -> Scan:
     """Read the scan that the argument ``VOLUME`` names.
 
-    Raise FileError, VolumeError, or UsageError for arguments that are not numbers.
+    Raise FileError or VolumeError if the scan cannot be read, and UsageError for arguments that are not numbers.
     """
     stated = Stated(
         shape=_shape(args.shape),
@@ -33,7 +33,10 @@ def scan_of(args: argparse.Namespace) -> Scan:
 
 
 def choice_of(args: argparse.Namespace) -> Choice:
-    """Return the values of the voxels that belong to the solid: labels or a threshold. Raise UsageError."""
+    """Return the values of the voxels that belong to the solid: labels or a threshold.
+
+    Raise UsageError if the threshold is not a number.
+    """
     try:
         threshold = None if args.threshold is None else Fraction(decimal(args.threshold))
     except ValueError as error:
@@ -44,7 +47,7 @@ def choice_of(args: argparse.Namespace) -> Choice:
 def volume_of(args: argparse.Namespace) -> tuple[Volume, tuple[str, ...]]:
     """Return the selected voxels of ``VOLUME`` in the coordinates of ``--space``, and notes for the user.
 
-    Raise the errors of ``scan_of``.
+    Raise FileError or VolumeError if the volume cannot be read, and UsageError for an invalid argument.
     """
     choice = choice_of(args)
     selection = chosen(scan_of(args), choice)

@@ -206,7 +206,7 @@ def build(out: Path) -> int:
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Build the named file, by default dist/hull1620.pdf.  Return 0, or 2 after a message of one line."""
+    """Build the named file, by default dist/hull1620.pdf.  Return the exit code: 0, or 2 after an error message."""
     out = Path(arguments[0]) if arguments else DIST / "hull1620.pdf"
     return run("book", lambda: f"{out}: {build(out) / 1e6:.1f} MB, PDF/A ({STANDARD.upper()})")
 

@@ -64,7 +64,7 @@ def _run_sphinx(docs: Path, out: Path, trees: Path, quiet: bool) -> None:
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Build the site in the named folder, by default dist/edition. Return 0, or 2 after a one-line message."""
+    """Build the site in the named folder, by default dist/edition. Return exit code 0, or 2 after an error."""
     out = Path(arguments[0]) if arguments else DIST / "edition"
 
     def summary() -> str:

@@ -1,7 +1,7 @@
 """Study the tolerance e of chapter 7: which e avoids rejections, which gives wrong hulls, and whether one always works.
 
 The thesis (p. 117-118) proposes to count a value from -e to +e as zero.  It warns that a point near a plane may then
-count as a point on the plane, so that a vertex is not recognized.  The programs with the layers ``epsilon`` and
+count as a point on the plane, and a vertex is not recognized.  The programs with the layers ``epsilon`` and
 ``corrected`` use an absolute e.  The port uses an absolute e and an e scaled by each equation's coefficients.
 ``samples`` is the number of sets of a cell.
 """

@@ -1,10 +1,10 @@
 """Study the translation of the origin to the inside point C (chapter 7): the time it saves, and its cost in digits.
 
-The thesis (p. 118-119) leaves open whether the translation is worthwhile.  With the origin at C, the sign of the
-constant term orients an equation, so that C need not be substituted, but the points must be moved and moved back.  Time
-is measured on runs of the programs without rounding, in which no set is rejected.  Digits are varied in the port.
-``samples`` is the number of timed sets of each kind and N.  Each kind whose digits are varied has four times as many
-sets.
+The thesis (p. 118-119) leaves open whether the translation is worthwhile.  With the origin at C, the sign of an
+equation's constant term shows which side of the plane is the inside, and C need not be substituted.  But all points
+must be moved, and later moved back.  Time is measured on runs of the programs without rounding, in which no set is
+rejected.  Digits are varied in the port.  ``samples`` is the number of timed sets of each kind and N.  Each kind whose
+digits are varied has four times as many sets.
 """
 
 import json

@@ -141,7 +141,7 @@ def _place(source: Source) -> str:
 
 
 def _fields(card: str) -> str:
-    """Return a card as code that breaks after a number if the window is narrow."""
+    """Return a card as code in which lines break after a number if the window is narrow."""
     return element("code", _EXPONENT.sub(r"\g<0><wbr>", escape(card)))
 
 
