@@ -238,8 +238,18 @@ def triangles_of_a_hull(cases: int = CASES) -> Check:
             outcomes += [(frozenset(three) in faces) == (three in supporting) for three in values]
     generator = replace(SETS[3], name=f"the first six points of {SETS[3].name}, without four in a supporting plane")
     check = searched(generator, sets, outcomes, f"true for {len(outcomes)} triangles")
+    solid = counterexample_points("yau_triangles.csv")
+    parts_of_faces = 0
+    for facet in exact_hull(solid).facets:
+        # A face that is seen from below and has more than three corners is none of the triangles of its corners.
+        triangles = [*combinations(facet.polygon, 3)] if facet.plane[2] < 0 and len(facet.polygon) > 3 else []
+        for three in triangles:
+            row = [plane_value(plane_through(*(solid[k] for k in three)), point) for point in solid]
+            parts_of_faces += (min(row) >= 0 or max(row) <= 0) and row.count(0) > 3
     as_printed = algorithm_as_printed("triangles")
-    return check.unless(not as_printed.holds, f"a solid with four points in a face: {as_printed.message}")
+    case = f"{parts_of_faces} triangles of points of a solid that lie in a supporting plane, but are only parts of a "
+    case += f"face with more than three corners; {as_printed.message}"
+    return check.unless(parts_of_faces and not as_printed.holds, case)
 
 
 @claim("yau-srihari.99")

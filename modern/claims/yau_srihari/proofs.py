@@ -64,6 +64,23 @@ def convex_epigraph() -> Proof:
     )
 
 
+def segment_of_graph() -> Proof:
+    m, f_x, f_y, f_between, z = variables("m f_x f_y f_between z")
+    combined = (1 - m) * f_x + m * f_y
+    on_segment = zero(z - combined)
+    convex, concave = not_negative(combined - f_between), not_negative(f_between - combined)
+    return Proof(
+        "a segment between two points of the graph is nowhere below the graph of a convex function, and nowhere above "
+        "that of a concave one",
+        "The point of the segment over (1 - m) X + m Y has the height z = (1 - m) f(X) + m f(Y). The definitions of "
+        "convex and concave functions compare this number with the value of f there.",
+        (
+            Step("not below", {"z": on_segment, "f": convex}, not_negative(z - f_between), (term("z"), term("f"))),
+            Step("not above", {"z": on_segment, "f": concave}, not_negative(f_between - z), (term("z", -1), term("f"))),
+        ),
+    )
+
+
 def negative_is_concave() -> Proof:
     m, f_x, f_y, f_between = variables("m f_x f_y f_between")
     convex = {"convex": not_negative((1 - m) * f_x + m * f_y - f_between)}
@@ -109,22 +126,36 @@ def theorem_2() -> Proof:
     }
     coordinates = tuple(term("inside", coordinate) for coordinate in f)
     return Proof(
-        "a plane through an edge of a face p supports if and only if its interior dihedral angle with p is the "
-        "largest, and if and only if no point is on the side opposite to the third corner of p",
+        "a plane through an edge of a face p supports if and only if its interior dihedral angle with p is the largest",
         "Project along the edge, so that p becomes the ray f and all points are on one side of it. The interior "
         "dihedral angle of the plane through u is the angle from f to u, and w is inside of that plane if w turns to "
         "u in the same sense. The two conditions differ by the factor f f, and so the largest angle has all points "
         "inside, and conversely. The theorem compares only planes whose outward normal points down, those through "
         "points on the far side of the edge, as seen from above. If p is not upright, points on the side of p have no "
-        "larger angles than those on the far side. If p is upright, no point is on its side. The third corner of p is "
-        "on one side, or in the plane only if the plane is that of p. So the plane supports if and only if no point is "
-        "on the opposite side. The outward normals make the supplement of the angle, so that its smallest value, and "
-        "not its largest, belongs to the next face.",
+        "larger angles than those on the far side. If p is upright, no point is on its side. The outward normals make "
+        "the supplement of the angle, so that its smallest value, and not its largest, belongs to the next face.",
         (
             Step("a point with a smaller angle than the plane is inside", smaller, inside, (term("angles"),), ("p",)),
             Step("a point inside has a smaller angle", {"inside": inside}, not_negative(cotangents), coordinates),
             Step("a far point has the larger angle", sides, inside, (term("w far"), term("u near")), ("upright",)),
             Step("the outward normals make the supplement", {}, zero(dot(outward_p, outward_q) + dot(f, u))),
+        ),
+    )
+
+
+def third_corner() -> Proof:
+    at_corner, at_point = variables("L_v L_w")
+    corner, same_side = positive(at_corner), not_negative(at_corner * at_point)
+    return Proof(
+        "a plane through an edge of a face p supports if and only if no point is on the side opposite to the third "
+        "corner of p",
+        "Choose the sign of the plane's equation L so that L is not negative at the third corner v. A point w is on "
+        "the side opposite to v if and only if the product of both values is negative. If L is positive at v, this is "
+        "so if and only if L is negative at w, and the plane supports if and only if L is negative at no point. If L "
+        "is 0 at v, the plane is that of p, which supports, and no point is opposite to v.",
+        (
+            Step("not negative", {"v": corner, "w": same_side}, not_negative(at_point), (term("w"),), ("v",)),
+            Step("not opposite", {"v": corner, "w": not_negative(at_point)}, same_side, (term("v w"),)),
         ),
     )
 
@@ -157,10 +188,11 @@ def angle_of_theorem_2() -> Check:
 
 @claim("yau-srihari.40", "yau-srihari.41", proof=hull_is_convex)
 @claim("yau-srihari.44", proof=negative_is_concave)
-@claim("yau-srihari.47", "yau-srihari.96", "yau-srihari.117", "yau-srihari.118", proof=convex_epigraph)
+@claim("yau-srihari.117", "yau-srihari.118", proof=segment_of_graph)
+@claim("yau-srihari.47", "yau-srihari.96", proof=convex_epigraph)
 @claim("yau-srihari.48", proof=theorem_1)
 @claim("yau-srihari.84", proof=normal_of_starting_face)
 @claim("yau-srihari.113", proof=number_of_pairs)
-@claim("yau-srihari.101", proof=theorem_2)
+@claim("yau-srihari.101", proof=third_corner)
 def proof_of_theorem(proof: Callable[[], Proof]) -> Check:
     return proof().check()
