@@ -1,7 +1,7 @@
 """The full searches of ``make claims``: checks that run once on many cases, and whose results are recorded.
 
 The results are in ``transcripts/statements/full.csv`` with the generator, its seed and the number of cases.  A result
-is kept as long as the code of its check does not change, so that an interrupted run continues where it stopped.
+is kept as long as the code of its check does not change; therefore an interrupted run continues where it stopped.
 """
 
 import ast

@@ -56,7 +56,7 @@ def may_be_convex(corners: int, faces: int) -> bool:
 
 
 def is_sphere(faces: Iterable[Sequence[object]]) -> bool:
-    """Return True if every edge belongs to two faces and V - E + F = 2, so that the faces form a closed surface."""
+    """Return True if every edge is on two faces and V - E + F = 2: the faces then form a surface like a sphere."""
     rings = [[*face] for face in faces]
     edges = Counter(frozenset(pair) for ring in rings for pair in pairwise([*ring, ring[0]]))
     corners = {corner for ring in rings for corner in ring}

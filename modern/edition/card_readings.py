@@ -32,7 +32,7 @@ def is_prose(card: str) -> bool:
 
 @lru_cache(1 << 18)
 def statement(card: str) -> tuple[tree.Statement | None, int]:
-    """Return the statement of a card and 0, or None and the column of its first error.
+    """Return the statement of a card and 0 or, if the card has an error, None and the column of the first error.
 
     For a comment, which has no statement, return None and 0.
     """
@@ -92,7 +92,7 @@ def exchanges(card: str) -> Iterator[tuple[str, Pair]]:
 def labels(card: str) -> tuple[str, tuple[str, ...]]:
     """Return the statement number of a card, and the numbers of other statements that its statement names.
 
-    The number of a FORMAT begins with F, so that it differs from the same number of another statement.
+    The number of a FORMAT begins with F, which distinguishes it from the same number of another statement.
     """
     match = re.match(r"\s*(\d*)(.*)", card)
     assert match is not None

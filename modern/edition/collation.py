@@ -302,10 +302,10 @@ def _ranges(numbers: Sequence[int]) -> str:
 
 
 def shared_errors(collation: Collation) -> tuple[int, int]:
-    """Return how many misreadings of the OCR text a transcription shares, and how many of their places it contains.
+    """Return how many misreadings of the OCR text a transcription shares, and how many it could share.
 
-    A transcription that shares most of the misreadings was probably made from the same OCR text or scan and is not
-    independent.
+    It could share those at places that it contains.  A transcription that shares most of these was probably made from
+    the same OCR text or scan and is not independent.
     """
     shared = places = 0
     for row in (row for name in programs.TEXTS for row in programs.text(name).rows if row.kind == "misread"):
@@ -316,7 +316,7 @@ def shared_errors(collation: Collation) -> tuple[int, int]:
 
 
 def _of_row(collation: Collation, row: Row) -> Iterator[tuple[Verdict, bool]]:
-    """Yield for each place that a row changes the verdict, and True if the transcription has the reading of the OCR."""
+    """Yield the verdict on each place that a row changes, and True if the transcription has the reading of the OCR."""
     for n, rival in row_rivals(row):
         card = collation.cards[n]
         if card.lines:

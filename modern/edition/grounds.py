@@ -313,7 +313,10 @@ def _with_row(name: str, layers: tuple[str, ...], deck_name: str) -> _Outcome:
 
 
 def _outcome(name: str, layers: tuple[str, ...], program: Program, deck: Deck, limit: int = 0) -> _Outcome:
-    """Run a data deck with ``program`` instead of the built-in ``name``, and the other programs with ``layers``."""
+    """Run a job on a data deck with ``program`` in place of the built-in program ``name``.
+
+    The other programs of the job are compiled with those of ``layers`` that have rows for them.
+    """
     first = "program1_examples" if name == "program1_examples" else "program1"
 
     def load(requested: str) -> Program:

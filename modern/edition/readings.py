@@ -60,7 +60,7 @@ class Pair:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """A replacement of characters in one change of a row, given by its index.
+    """A replacement of characters in one change of a row; the change is given by its index in the row.
 
     The replaced characters are at index ``at`` of the witness without blanks, and the new characters at index ``to`` of
     the lemma without blanks.

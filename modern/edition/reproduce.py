@@ -182,14 +182,17 @@ def _headings(lines: Sequence[str]) -> Counter[str]:
 
 
 def _same_results(printed: Sequence[str], produced: Sequence[str], oriented: bool) -> bool:
-    """Return True if the headings are equal, and the hulls differ, but only in the order of their parts."""
+    """Return True if two outputs have equal headings and hulls that differ only in the order of parts or in scale.
+
+    Return False if the hulls are equal, because the outputs then differ in something other than the order.
+    """
     printed_hull, produced_hull = read_hull(printed), read_hull(produced)
     in_other_order = printed_hull != produced_hull and same_hull(printed_hull, produced_hull, oriented)
     return in_other_order and _headings(printed) == _headings(produced)
 
 
 def _same_deck(printed: Sequence[str], produced: Sequence[str]) -> bool:
-    """Return True if the decks have the same points in another order, and the produced planes fit the new order."""
+    """Return True if a deck has the printed points in another order, and its planes hold at the points they name."""
     expected, actual = read_intermediate(printed), read_intermediate(produced)
     if expected is None or actual is None or expected.points == actual.points:
         return False

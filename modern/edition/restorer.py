@@ -10,7 +10,7 @@ exchange needs a ground:
             card that compiles and to which no other rule applies is emended only if all results are then reproduced.
 ``forced``  only this reading equals another card (a sibling) in which names are exchanged.  A card that compiles is
             emended in this way only if it has at least 20 characters and the reading has at least two siblings.
-            The equations of chapter 3 are symmetric in x, y and z, so that their cards are siblings of each other.
+            The equations of chapter 3 are symmetric in x, y and z; therefore their cards are siblings of each other.
 ``sibling`` the same as ``forced``, but the reading inserts a character
 
 A reading with the ground ``parse`` or ``print`` is *certain*.  A reading that only siblings support is *probable*.  If

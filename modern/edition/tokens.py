@@ -60,7 +60,7 @@ def _words(line: str, at: int) -> Iterator[tuple[int, int]]:
 
 
 def _tokens(entry: EditionCard) -> Iterator[tuple[int, int]]:
-    """Yield the tokens of a statement.  The words of a Hollerith text are tokens; the text's length includes blanks."""
+    """Yield the tokens of a statement, including each word of a Hollerith text, whose stated length counts blanks."""
     at, text = 0, entry.text
     offset = len(entry.label)
     keyword = _KEYWORD.match(text)

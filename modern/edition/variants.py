@@ -162,7 +162,7 @@ def _steps(number: str) -> Iterator[str]:
 
 
 def _alike(name: str) -> set[str]:
-    """Return the names in the listings that differ from ``name`` in one character, but none for a single letter."""
+    """Return the names in the listings that differ from ``name`` in one character; none if ``name`` is one letter."""
     if len(name) < 2:
         return set()
     return {known for known in _names() if len(known) == len(name) and sum(map(str.__ne__, name, known)) == 1}

@@ -248,7 +248,7 @@ def alike(text: str) -> int:
 
 
 def ordered() -> list[Variant]:
-    """Return all variants ordered by the SHA-256 of their keys, so that the first n are a random sample."""
+    """Return all variants ordered by the SHA-256 of their keys: any first n of them are then a random sample."""
     every = [variant for name in programs.TEXTS for variant in variants(name)]
     return sorted(every, key=lambda v: hashlib.sha256(v.key.encode()).digest())
 

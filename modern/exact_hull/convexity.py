@@ -6,12 +6,12 @@ a. Every plane is in lowest terms, occurs once and contains the corners of its p
    points called vertices.  A polygon turns left everywhere and goes around once, seen from outside.
 b. Every directed edge occurs once and so does its reverse, and V - E + F = 2.
 c. The point o is strictly inside the plane of every facet.
-d. At each edge, the polygon on the other side of the edge is strictly inside the plane of the polygon on this side.
+d. If two polygons share an edge, each is strictly inside the plane of the other, except for the shared edge.
 e. Every polygon is split into triangles from its first corner.  The ray from o through the middle of the first triangle
    meets no other triangle.
-f. For each point that is not a vertex, a triangle is found whose cone from o contains the point, and the point is
-   inside the plane of that facet, or in the plane if and only if its class is boundary.  A point for which no cone is
-   found is evaluated in every plane.
+f. For each point that is not a vertex, a triangle is found whose cone from o contains the point.  The point must be
+   inside the plane of this triangle or, if and only if its class is boundary, in the plane.  A point for which no cone
+   is found is evaluated in every plane.
 """
 
 from dataclasses import dataclass

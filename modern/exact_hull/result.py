@@ -80,7 +80,8 @@ def facets_as_arrays(facets: Sequence[Facet]) -> Facets:
 class Certificate:
     """Counts from a successful proof that a hull is correct.
 
-    dimension, points, vertices, edges, facets: the hull's dimension, and how many of the others it has.
+    dimension, points, vertices, edges, facets: the hull's dimension, and its numbers of points, vertices, edges and
+    facets.
     arithmetic: "int64", or "float64 and integers" if a floating-point filter was used, or "none" for a point.
     evaluations: the number of exact signs of a plane at a point.
     in_integers: the number of these signs that the floating-point filter could not determine.

@@ -7,7 +7,8 @@
 To add an arithmetic for the port:
 
 1. Write a subclass of :class:`modern.port.arithmetic.Arithmetic` in ``binary.py`` or ``exact.py``. If the emulator
-   already provides the arithmetic, ``hosted.py`` adapts it; only converting a coordinate may need a branch there.
+   already provides the arithmetic, ``hosted.py`` adapts it, and at most the conversion of a coordinate needs another
+   branch in ``hosted.py``.
 2. Name it in ``NAMES`` and construct it in ``fixed_arithmetic``, both in ``points.py``.
 3. Test it in ``tests/modern/port/test_port_floats.py``, or in ``test_port_cards.py`` if the programs have it too.
 

@@ -42,9 +42,10 @@ class Arithmetic(ABC):
         """Convert a coordinate to this arithmetic; ``minus`` marks minus zero.  Raise RangeError if it is too large."""
 
     def tolerance(self, size: Fraction, degree: int) -> Scalar:
-        """Convert the tolerance ``size`` to a number that can be compared with quantities of this degree.
+        """Convert the tolerance ``size`` to a number that can be compared with quantities of degree ``degree``.
 
-        The module's docstring defines the degree of a quantity.  Raise RangeError if the tolerance is too large.
+        The degree of a quantity is the number of coordinates that are multiplied in it.  Raise RangeError if the
+        tolerance is too large.
         """
         return self.number(size)
 
@@ -70,11 +71,11 @@ class Arithmetic(ABC):
 
     @abstractmethod
     def exact(self, value: Scalar, degree: int) -> Exact:
-        """Return the exact value of a number of this arithmetic that is a quantity of this degree (see the module)."""
+        """Return the exact value of a number of this arithmetic; ``degree`` counts the coordinates multiplied in it."""
 
     @abstractmethod
     def text(self, value: Scalar, degree: int) -> str:
-        """Return the exact value of a quantity of this degree as text.  A minus zero is written ``-0``."""
+        """Return the exact value as text, ``-0`` for minus zero; ``degree`` counts the coordinates multiplied in it."""
 
     def exacts(self, values: Vector, degree: int) -> list[Exact]:
         return [self.exact(value, degree) for value in values]

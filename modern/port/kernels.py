@@ -250,7 +250,10 @@ def doubles(defining: NDArray[np.int64], first: int, last: int, scratch: Any) ->
 
 
 def takes_last_pair(partner: NDArray[np.int64], count: int) -> bool:
-    """Return True if the listing would fail here: at most one new plane follows a deleted pair of equal planes."""
+    """Return True if the listing would fail at these new planes.
+
+    It fails if at most one new plane follows a pair of equal planes that it deletes.
+    """
     remaining = count
     for k in range(count):
         if partner[k] < 0:
@@ -343,7 +346,7 @@ def count_on(coordinates: NDArray[Any], start: int, end: int, plane_equation: An
 
 
 def satisfied(slots: Any, coordinates: NDArray[Any], counts: NDArray[np.int64], indices: NDArray[np.int64]) -> int:
-    """Write the points on each plane into ``indices``, as far as it has room, and return the number of all of them."""
+    """Write the points on each plane into ``indices`` while it has room, and return the number of all such points."""
     k, count = 0, coordinates.shape[1]
     for slot in range(len(slots.alive)):
         plane_equation, e, first = equation(slots.coefficients, slot), slots.tolerances[slot], k

@@ -115,10 +115,10 @@ class Polyhedron:
         return Fresh(coefficients, defining, bool(through.any()), degenerate)
 
     def note(self, fresh: Fresh, size: int) -> None:
-        """Record each correction that is needed here.
+        """Record each correction without which Butler's listing would stop at this step.
 
-        Butler's listing would have stopped because a new plane contains the inside point C, or because its table of
-        planes has fewer than ``size`` entries.
+        It stops if a new plane contains the inside point C, or if the ``size`` entries that the step needs exceed its
+        table of planes.
         """
         if fresh.through:
             self.progress.correct(growth.THROUGH_CENTRE)

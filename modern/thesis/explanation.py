@@ -1,7 +1,6 @@
-"""Word the reason why a run of the thesis programs found no hull, and the first branch that exact arithmetic takes
-differently.
+"""Explain in sentences why a run found no hull, and at which branch exact arithmetic first takes another path.
 
-The commands ``hull`` and ``diff`` and the page of the site on points of the reader's choice print the same sentences.
+The commands ``hull`` and ``diff``, and the page of the site on which readers enter points, print the same sentences.
 """
 
 from collections.abc import Sequence

@@ -66,7 +66,7 @@ def explain_run(run: Callable[..., HullRun], watch: Watch | None = None) -> tupl
 
 
 def cause(step: Step, machine: Session) -> Cause | None:
-    """Return the reason why a program found no hull, or None if it found one, from its machine's final state."""
+    """Return, from the final state of its machine, the reason why a program found no hull, or None if it found one."""
     ending, refused = step.result.ending, refusal(step.result)
     if refused:
         event = next(e for e in reversed(step.result.events) if e.what == "type" and e.text in REFUSALS)

@@ -91,7 +91,7 @@ def _behind(point: list[Fraction], box: Box) -> bool:
 
 
 def point_of(drawing: Drawing, piece: Piece, share: Fraction) -> list[Fraction]:
-    """Return the point in space at a fraction of the edge to which a piece belongs."""
+    """Return the point in space that is at the fraction ``share`` of the edge to which a piece belongs."""
     vertices = drawing.solids[piece.solid].polyhedron.vertices
     return [a + share * (b - a) for a, b in zip(vertices[piece.start], vertices[piece.end], strict=True)]
 

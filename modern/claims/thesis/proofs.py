@@ -2,7 +2,8 @@
 
 Each proof is an argument in sentences and the steps on which the argument rests; :mod:`modern.claims.algebra` checks
 the steps.  Points of the plane are a, b, c, ...; [a, b, c] is positive if c is to the left of the line from a to b.
-The vertices of an H_j are named counterclockwise, so that h is outside the line a b if [a, b, h] is negative.
+The vertices of H_j, a hull of the construction, are named counterclockwise.  A point h is therefore outside the
+line a b if [a, b, h] is negative.
 """
 
 from __future__ import annotations
