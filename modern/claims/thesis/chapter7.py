@@ -4,13 +4,17 @@ import re
 from collections.abc import Iterable
 from decimal import Decimal
 from fractions import Fraction
-from functools import cache
+from functools import cache, reduce
 from itertools import combinations, pairwise, permutations
 from random import Random
+from typing import Any
 
 from emulator.language.cards import Deck, deck_from_lines, deck_from_text
+from emulator.language.objectcode import Line, Program
 from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
+from emulator.machine.machine import Machine
 from emulator.machine.result import Options
+from emulator.machine.session import Session
 from emulator.objectdeck.extent import code_positions
 from modern.claims.evidence import Check, Generator, claim, exhibited, identity, proved, refuted, search, searched, slip
 from modern.claims.hulls import convex_hull, exact_hull
@@ -260,13 +264,76 @@ def fourth_point_off_plane() -> Check:
     return exhibited(exactly and _misses(_FOURTH) == [3], message)
 
 
-@claim("thesis.184")
-def programs_rejecting_data() -> Check:
+def _draw_truncated(random: Random) -> tuple[Point, ...]:
+    """Return six points; with larger coordinates, the equations of more planes and lines are truncated."""
+    limit, is_flat = random.choice((99, 999, 9999)), random.random() < 0.5
+    rows = [[random.randint(-limit, limit) for _ in "xyz"] for _ in range(6)]
+    return tuple((x, y, 0 if is_flat else z) for x, y, z in rows)
+
+
+TRUNCATED: Generator[tuple[Point, ...]] = Generator(
+    "six points in space or with z = 0, coordinates of two to four digits", 117, _draw_truncated
+)
+# For programs 2 and 3: the statements that begin the test of equation NETC (T), type that the data are not acceptable
+# (R), and continue (A); then the names of the defining points, of the coordinates, and of the coefficients.
+_OWN_POINTS = {
+    "program2.f": ({124: "T", 126: "R", 128: "A"}, ("MM", "NN"), "RS", "ABC"),
+    "program3.f": ({116: "T", 119: "R", 120: "A"}, ("MM", "NN", "KK"), "XYZ", "ABCD"),
+}
+
+
+def _tests_of_own_points(points: tuple[Point, ...]) -> tuple[list[tuple[bool, bool]], HullRun]:
+    """Run the programs on a set.  Return their tests of equations with the points that define them, and the run.
+
+    A test is a pair: whether a value of the equation at its points is not zero, and whether the program rejects it.
+    """
+    misses: list[bool] = []
+    rejected: list[bool] = []
+
+    def watch(program: Program, machine: Machine) -> None:
+        labels, names, axes, coefficients = _OWN_POINTS.get(program.source, ({}, (), "", ""))
+
+        def trace(line: Line, session: Session) -> None:
+            step, numbers = labels.get(line.label), session.options.numbers
+            if step == "T":
+                n = _held(session, "NETC")
+                equation = [_held(session, f"{letter}({n})") for letter in coefficients]
+                values = []
+                for k in (_held(session, f"{name}({n})") for name in names):
+                    point = [_held(session, f"{axis}({k})") for axis in axes]
+                    products = [numbers.multiply(a, x) for a, x in zip(equation, point, strict=False)]
+                    values.append(reduce(numbers.add, [*products, equation[-1]]))
+                misses.append(any(map(numbers.sign, values)))
+            elif step:
+                rejected.append(step == "R")
+
+        machine.tracer = trace
+
+    run = run_hull(deck_with(points), programs.program, Options(limit=100_000), watch=watch)
+    return [*zip(misses, rejected, strict=True)], run
+
+
+def _held(session: Session, name: str) -> Any:
+    """Return the value of a variable or array element of a running program."""
+    ((value, _),) = session.held(name)
+    return value
+
+
+@claim("thesis.184", full=600)
+def programs_rejecting_data(cases: int = 12) -> Check:
+    outcomes, names, accepted = [], [], 0
+    for points in TRUNCATED.cases(cases):
+        tests, run = _tests_of_own_points(points)
+        outcomes += [misses == is_rejected for misses, is_rejected in tests]
+        accepted += sum(not is_rejected for _, is_rejected in tests)
+        is_last_rejected = bool(tests) and tests[-1][1]
+        outcomes.append(is_last_rejected == typed(run).endswith("DATA NOT ACCEPTABLE"))
+        names += [run.final.name] if is_last_rejected else []
+    rejected = [names.count(name) for name in ("program2", "program3")]
+    message = f"programs 2 and 3 reject {rejected[0]} and {rejected[1]} sets, all at an equation that is not zero at "
+    message += f"its points, and accept the {accepted} equations that are zero at them"
+    check = searched(TRUNCATED, cases, [*outcomes, *rejected, accepted], message)
     deck = deck_with(_REJECTED)
-    flat = [(23797, 70812, 0), (-83456, -33135, 0), (-64777, 49214, 0), (99482, 17832, 0), (-486, -44961, 0)]
-    runs = [run_hull(points, programs.program) for points in (deck, deck_with([*flat, (-69088, 29876, 0)]))]
-    names = [run.final.name for run in runs if typed(run).endswith("DATA NOT ACCEPTABLE")]
-    check = exhibited(_misses(_THREE) and names == ["program3", "program2"], f"typed: {'; '.join(map(typed, runs))}")
     switched = run_hull(deck, programs.program, Options(switches=frozenset({1})))
     first, *_, last = convex_hull(_NOT_TESTED, "truncating", history=True).history
     replaced = [plane for plane in first.equations if {*plane} not in map(set, last.equations)]
