@@ -135,7 +135,7 @@ def test_a_filled_sheet_changes_the_text_and_the_confidence_without_python(tmp_p
         (filled(Q24="Z"), "s.csv: row 37: expected A, B, C, ?, or = followed by the text of the page, found 'Z'"),
         (filled(Q24="A").replace("Q24", "Q99"), "s.csv: row 37: no sheet has the item 'Q99'"),
         (filled(Q24="A") + "Q24,,,,,B\n", "s.csv: row 38: item Q24 is answered twice, first in row 37"),
-        (filled(**{"1_064_1": "=      GO TO #"}), "s.csv: row 16: card 1, column 13: '#'"),
+        (filled(**{"1_064_1": "=      GO TO #"}), "s.csv: row 16: card 1, column 13: write '=' for '#'"),
     ],
 )
 def test_an_error_names_the_row_of_the_sheet(table: str, message: str) -> None:
