@@ -37,9 +37,10 @@ def insertion_order(count: int, simplex: Sequence[int]) -> list[int]:
 def _on_facets(
     points: Coordinates, facets: Sequence[Facet], others: Ints | None = None, likely: Ints | None = None
 ) -> Ints:
-    """Return the points among ``others``, by default all points that are not vertices, that lie in a facet's plane.
+    """Return those of the points ``others`` that lie in the plane of a facet.
 
-    ``likely`` has for each point of ``others`` a facet that is tried first, or -1.
+    By default, ``others`` are all points that are not vertices.  ``likely`` has for each point of ``others`` a facet
+    that is tried first, or -1.
     """
     if others is None:
         is_other = np.ones(len(points), np.bool_)

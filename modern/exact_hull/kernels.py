@@ -32,12 +32,12 @@ _TERMS = 6 * 8 * 4
 class Surface(NamedTuple):
     """The growing hull: triangles in numbered slots, each with a linked list of the points outside it.
 
-    places (n, 3): the points. corners, neighbours, normals (slots, 3): as in ``proposal``, but normals are vector
-    products of the sides. bound: the bound for the values of each triangle's plane. first, farthest, height: for each
-    triangle the first and the farthest of its waiting points, and the value of its plane at the farthest. mark: twice
-    the number of the step that last tested the triangle, plus 1 if it is not visible. following: the next waiting point
-    in the list of each point, or -1. leaving: for each point, the new triangle whose first corner it is. terms: an
-    expansion. exact: True if all values are exact without expansions.
+    places (n, 3): the points. corners, neighbours (slots, 3): the corners of each triangle, and the triangle beyond
+    each edge. normals (slots, 3): vector products of the sides. bound: the bound for the values of each triangle's
+    plane. first, farthest, height: for each triangle the first and the farthest of its waiting points, and the value of
+    its plane at the farthest. mark: twice the number of the step that last tested the triangle, plus 1 if it is not
+    visible. following: the next waiting point in the list of each point, or -1. leaving: for each point, the new
+    triangle whose first corner it is. terms: an expansion. exact: True if all values are exact without expansions.
     """
 
     places: NDArray[np.float64]

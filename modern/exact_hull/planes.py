@@ -66,8 +66,7 @@ def normal_image(plane: Sequence[int], shifts: Sequence[int]) -> tuple[float, fl
 
 
 def long_signs(normals: Ints, differences: Ints) -> Ints:
-    """Return the exact signs of scalar products, one for each row of ``normals`` and the same row of
-    ``differences``.
+    """Return the exact sign of the scalar product of each row of ``normals`` and the same row of ``differences``.
 
     Normals are below 2**61 and differences below 2**30 in absolute value.
     """

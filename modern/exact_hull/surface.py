@@ -10,7 +10,7 @@ cycle.  No edge of the horizon is in line with the new point, since otherwise th
 edge would contain the point.  So no triangle without area arises.  Triangles may share a plane, and a former corner may
 end up inside a face or an edge; ``facets.faces`` merges such triangles at the end.
 
-Signs are first computed with the filter of ``planes``, and in integers where it leaves them undecided.
+Signs are first computed with the filter of ``planes``; a sign that it does not decide is computed in integers.
 """
 
 from collections.abc import Sequence
@@ -40,7 +40,7 @@ class Surface:
 
     Corners are counterclockwise seen from outside. ``neighbours[t][k]`` is the triangle beyond edge k of triangle t.
     ``waiting`` has the points waiting outside each triangle, and ``home`` the triangle of each point, or -1. ``mark``
-    encodes which point last tested each triangle, and if the point saw it (see ``_visible``).
+    encodes which point last tested each triangle, and whether the point saw it (see ``_visible``).
     """
 
     def __init__(self, points: Coordinates, simplex: Sequence[int]) -> None:

@@ -88,7 +88,7 @@ def polygon_edges(
 
 
 def stages(history: Sequence[tuple[Grown, NDArray[np.int64]]]) -> Sequence[Stage]:
-    """Return the steps of the construction (``Progress.history``) as stages, which are made on access."""
+    """Return the steps of the construction (``Progress.history``) as stages, each of which is made when accessed."""
 
     def member(index: int) -> Stage:
         grown, defining = history[index]

@@ -65,9 +65,7 @@ class Slack:
     relative: bool
 
     def of(self, coefficients: tuple[Vector, ...]) -> Vector:
-        """Return the tolerance e of each plane equation; ``coefficients`` has the rows A, B, C and the constant
-        terms.
-        """
+        """Return the tolerance e of each plane equation; ``coefficients`` has the rows A, B, C and constant term."""
         arithmetic = self.arithmetic
         degree = 1 if self.relative else len(coefficients) - 1
         e = arithmetic.filled([arithmetic.tolerance(self.size, degree)] * len(coefficients[0]))

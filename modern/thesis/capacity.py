@@ -2,8 +2,8 @@
 
 The programs have arrays of length 51, with one entry for each of N points, and of length 98, with one entry for each
 plane: a hull of N points in space has at most 2N-4 planes.  With the modern corrections to the listings (layer
-``corrected``) the lengths are 52, or N+1, and 193, or 4N-11.  :mod:`emulator.objectdeck.extent` gives the length of the
-object program.
+``corrected``) the lengths are N+1 = 52 and 4N-11 = 193 for N = 51.  :mod:`emulator.objectdeck.extent` gives the length
+of the object program.
 """
 
 from collections.abc import Callable

@@ -23,7 +23,10 @@ from modern.claims.yau_srihari.envelopes import algorithm_as_printed
 
 
 def combination_above() -> Step:
-    """Return the step that a combination of points above a convex graph is not below the graph."""
+    """Return the step that proves: a weighted mean of points on or above a graph is on or above that of graph points.
+
+    The graph points are those directly below the given points.
+    """
     m, z_1, z_2, floor_1, floor_2 = variables("m z_1 z_2 floor_1 floor_2")
     points = {"first": not_negative(z_1 - floor_1), "second": not_negative(z_2 - floor_2)}
     return Step(
