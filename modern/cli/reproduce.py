@@ -34,7 +34,8 @@ _PARTS: dict[Part, str] = {
 }
 _REASON_FOR_ORDER = (
     "the listing moves the extreme points to positions 1 and 2 and then finds the farthest third point; the examples "
-    "were printed by an earlier state of program 1, which moved the six extreme points to the front"
+    "were printed by an earlier state of program 1, which moved the six extreme points to the front; cards from "
+    "program 1 may therefore contain another first tetrahedron"
 )
 _PAINT_KINDS = {EXACT: EXACT, CORRECTED: EXACT, EXPLAINED: ORDER, CANNOT: "", DIFFERENT: DIFFERENT}
 _MOST_LINES = 4

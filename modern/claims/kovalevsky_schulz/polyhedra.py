@@ -15,7 +15,7 @@ from modern.exact_hull import ExactHull
 from modern.geometry.mesh import sides
 from modern.geometry.vectors import independent
 from modern.papers.kovalevsky_schulz import CENTRES, INVISIBLE, VERTICES, VISIBLE, expanded, reconstructed, voxel_hull
-from modern.papers.kovalevsky_schulz.cells import CellList
+from modern.papers.kovalevsky_schulz.cells import CellList, Economical
 from modern.papers.kovalevsky_schulz.coplanar import EXTENDED, QUADRANGLES, coplanar_hull
 from modern.papers.kovalevsky_schulz.corners import Of
 from modern.papers.kovalevsky_schulz.hull import merged, straightened
@@ -251,10 +251,19 @@ def collinear_edges(treatment: str) -> Check:
 @claim("kovalevsky-schulz.44", "kovalevsky-schulz.160", full=1_000)
 def economical_encoding(cases: int = 4) -> Check:
     def returns(solid: Voxels) -> bool:
-        cells = polyhedron(solid)
-        return _incidences(expanded(cells.economical())) == _incidences(cells)
+        cells, judge = polyhedron(solid), exact_hull(solid)
+        # The cell list of triangles, and that of the faces of the hull, which have any number of vertices.
+        numbers = {k: number for number, k in enumerate(judge.vertices, 1)}
+        cycles = tuple(tuple(numbers[k] for k in facet.polygon) for facet in judge.facets)
+        edges = expanded(Economical(tuple(solid[k] for k in judge.vertices), cycles)).edges
+        hull_edges = {frozenset((numbers[a], numbers[b])) for a, b in judge.edges()}
+        outcomes = [_incidences(expanded(cells.economical())) == _incidences(cells)]
+        outcomes.append({frozenset((e.start, e.end)) for e in edges} == hull_edges)
+        outcomes += [{e.start, e.end} <= {*cycles[e.left - 1]} & {*cycles[e.right - 1]} for e in edges]
+        return all(outcomes)
 
-    return search(SOLIDS, returns, cases, "the edges follow from the economical encodings")
+    message = "the edges and their faces follow from the economical encodings of the triangles and of the merged faces"
+    return search(SOLIDS, returns, cases, message)
 
 
 def _incidences(cells: CellList) -> tuple[set[tuple[int, ...]], list[set[int]]]:

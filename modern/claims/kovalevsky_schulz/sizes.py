@@ -14,7 +14,7 @@ from modern.claims.published import PAPERS, printed_lines, results_of
 from modern.claims.sampled_sets import CASES, SETS, Point
 from modern.digital.solids import half_ball, listed
 from modern.geometry.vectors import dot, minus
-from modern.papers.kovalevsky_schulz import INVISIBLE, VERTICES, VISIBLE, local_corners, voxel_hull
+from modern.papers.kovalevsky_schulz import CENTRES, INVISIBLE, VERTICES, VISIBLE, local_corners, voxel_hull
 from modern.papers.kovalevsky_schulz.cells import CellList, cell_list_size, economical_size, triangulation_size
 from modern.papers.kovalevsky_schulz.hull import merged, straightened
 from modern.papers.kovalevsky_schulz.results import half_ball_cells
@@ -143,10 +143,13 @@ def row_of_table_5(diameter: int) -> Check:
     message = f"{len(cells.faces)} faces and {len(cells.vertices)} points give {_size(cells)} integers by formula (6)"
     centred = len(half_ball_cells(diameter, "voxel").faces)
     case = f"a half-ball centred on a voxel, which has {centred} faces"
-    others = {_size(hull)}
+    half, others = half_ball(diameter), {_size(hull)}
+    of_centres = voxel_hull(half, CENTRES, 6, INVISIBLE).polyhedron.faces
+    if _size(of_centres) != row.integers:
+        case += f", the hull of the voxels' centres, which has {len(of_centres.faces)} faces and "
+        case += f"{len(of_centres.vertices)} points, which give {_size(of_centres)} integers"
     if hull != cells:
         case += f", the {len(hull.vertices)} vertices of the strict hull, which give {_size(hull)} integers, and 26 "
-        half = half_ball(diameter)
         by_26 = [voxel_hull(half, VERTICES, 26, coplanar) for coplanar in (INVISIBLE, VISIBLE)]
         others |= {_size(h.polyhedron.faces) for h in (*by_26, voxel_hull(half, VERTICES, 6, VISIBLE))}
         case += f"neighbours or visible coplanar faces, which give at most {max(others)}"

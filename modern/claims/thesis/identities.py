@@ -149,10 +149,12 @@ def coordinates_of_figure_3() -> Proof:
     moved = {name: (turn(way, u), dot(way, u)) for name in "pqrx" for u in [minus(point(name, 2), third)]}
     image, original = moved["x"], minus(point("x", 2), third)
     return Proof(
-        "a rotation puts P_3 at the origin and P_1 P_2 parallel to the y axis",
+        "in coordinates that keep all distances, P_3 is the origin, P_1 and P_2 have the same x, and y_1 is less than "
+        "y_2",
         "The new coordinates of a point x, times the distance of P_1 and P_2, are products of the way from P_1 to P_2 "
         "with the way from P_3 to x. They keep distances, because the sum of the squares of both products is the "
-        "product of the squares of both ways. If P_1 has a negative x, -x takes the place of x.",
+        "product of the squares of both ways. If P_1 has a negative x, -x takes the place of x. If P_1, P_2 and P_3 "
+        "run clockwise, the change of coordinates is a reflection as well as a movement.",
         (
             *_all_zero("P_3 is the origin", moved["r"]),
             *_all_zero("P_1 and P_2 have the same x", [moved["p"][0] - moved["q"][0]]),
