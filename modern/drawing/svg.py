@@ -79,7 +79,7 @@ def group(name: str, attributes: str, items: Iterable[str]) -> list[str]:
 def page(width: int, height: int, title: str, items: Iterable[str], description: str = "") -> str:
     """Return a complete SVG file with a white background.
 
-    With a ``description``, the file is marked as a document, so that screen readers read the texts in the picture.
+    With a ``description``, the file is marked as a document. Screen readers then read the texts in the picture.
     """
     role = "graphics-document document" if description else "img"
     head = (

@@ -1,7 +1,7 @@
 """Project points exactly along a direction of view, and choose a good direction.
 
 The direction points from the solid to the eye. The x axis of the image is the vector product ``z x eye`` and its y axis
-``eye x (z x eye)``, so that the z axis of space is upright. If the direction is along z, x points right and y is
+``eye x (z x eye)``. The z axis of space is therefore upright. If the direction is along z, x points right and y is
 upright.
 """
 

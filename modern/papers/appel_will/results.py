@@ -88,7 +88,7 @@ def produced(printed: Lines) -> Lines:
 def _vertex_list(solid: Solid) -> Iterator[str]:
     """Compute each point of Fig. 4 as the intersection of its three surfaces, to confirm the printed coordinates.
 
-    The plane of each surface comes from its other points, so that a misread coordinate cannot confirm its own value.
+    The planes are computed without the point. A misread coordinate therefore cannot confirm its own value.
     """
     for index in range(len(solid.points)):
         planes = []

@@ -56,7 +56,7 @@ class Face:
     """A face in a cell list (Table 3): pairs (P, L) of a vertex and an edge, counterclockwise as seen from outside.
 
     Edge L leads from vertex P to the P of the next pair. L is positive if the edge is followed from its start to its
-    end, so that the face is on its left.
+    end, i.e. if the face is on its left.
     """
 
     pairs: tuple[tuple[int, int], ...]

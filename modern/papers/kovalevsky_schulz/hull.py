@@ -150,8 +150,8 @@ class VoxelHull:
         """Return the hull as a mesh whose coordinates are exact text.
 
         The coordinates are physical if the position of the voxels is known, otherwise the paper's integers. The faces
-        are counterclockwise as seen from outside in these coordinates. With ``straight``, edges in one line are merged,
-        so that all vertices are vertices of the hull.
+        are counterclockwise as seen from outside in these coordinates. With ``straight``, edges in one line are merged.
+        All vertices are then vertices of the hull.
         """
         points, faces = self._polygons(straight)
         if self.world is None:

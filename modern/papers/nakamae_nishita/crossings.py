@@ -21,7 +21,7 @@ class Passage:
     """The course of a segment behind one contour.
 
     ``marks`` has the points at which the segment enters or leaves the contour, each as its distance s and its index,
-    the paper's I_0. ``enclosed`` is True if the whole segment lies within the contour, so that there is no such point.
+    the paper's I_0. ``enclosed`` is True if the whole segment lies within the contour and has no such point.
     """
 
     marks: tuple[Mark, ...]

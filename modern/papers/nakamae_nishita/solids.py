@@ -104,7 +104,7 @@ def plane_through(p: Homogeneous, q: Homogeneous, r: Homogeneous) -> Plane:
     """Return the plane of formula (5) through three projected points, clockwise from outside, or zeros if collinear.
 
     The coefficients are cofactors of a determinant. Its rows are the homogeneous coordinates of the three points and of
-    a variable point, so that its value is the value of the plane's equation at the variable point.
+    a variable point, and its value is the value of the plane's equation at the variable point.
     """
     # The 2 x 2 minors of q and r, each of which occurs in two cofactors.
     xy, xz, xw = q[0] * r[1] - q[1] * r[0], q[0] * r[2] - q[2] * r[0], q[0] * r[3] - q[3] * r[0]

@@ -13,8 +13,8 @@ class Printed:
     """The statements of the paper to apply as printed, although they are wrong. By default all are corrected.
 
     angle
-        Theorem 2 chooses the face with the greatest angle between outward normals. But the face in the
-        supporting plane has the least angle.
+        Theorem 2 chooses the face with the greatest angle between outward normals. But the face that
+        lies in a supporting plane has the least angle.
     start
         Section 5 starts from one upright face over each edge of H(A), the plane hull of the columns' positions (x, y).
         Points of the floor above such an edge may lie below this face. Therefore an upright face is needed at every
@@ -23,8 +23,8 @@ class Printed:
         Section 4.6 assumes that all faces are triangles. If four or more vertices lie in one supporting plane,
         triangles chosen edge by edge may overlap. The face is the polygon of all of these vertices.
     truncation
-        Section 5 enters the truncated height of a face. The height of the lowest digital point on or above the face is
-        the height of the face rounded up.
+        Section 5 enters the truncated height of a face into the tree. The height of the lowest digital point on or
+        above the face is the height of the face rounded up.
     bound
         Section 4.6.2 computes both bounds of the angle over a square at z = max, which is right for the greatest angle.
         The least angle needs z = min, the value of a node of the floor tree. A corner of the square below the plane of
