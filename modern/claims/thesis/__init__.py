@@ -10,5 +10,5 @@
 - Chapters 3 and 4: ``identities`` (identities for all real coordinates).
 - Chapter 5: ``chapter5`` and ``chapter7``.
 - Chapter 6: ``chapter5``.
-- Chapter 7: ``chapter7`` and ``chapter5``.
+- Chapter 7: ``chapter7``, ``chapter7_errors`` (errors, rejected data, the tolerance e) and ``chapter5``.
 """

@@ -29,10 +29,10 @@ from modern.claims.thesis.chapter7 import (
     entries_of_plane_table,
     points_on,
     run_of,
-    two_kinds_of_error,
     typed,
     vertices_of,
 )
+from modern.claims.thesis.chapter7_errors import two_kinds_of_error
 from modern.comparison.difference import disagreement
 from modern.comparison.outcome import from_card_hull, from_cards, from_judge
 from modern.edition import programs
