@@ -34,10 +34,12 @@ def integers_per_face() -> Check:
     rows = [result.printed[0].split() for result in results_of(PAPER) if result.id.startswith("table5-")]
     quotients = [(int(row[6].replace(".", "")), Fraction(100 * int(row[5]), int(row[4]))) for row in rows]
     wrong = [(printed, exact) for printed, exact in quotients if printed != round(exact)]
+    rounded_up = [int(exact) < printed == round(exact) for printed, exact in quotients]
     others = "".join(f"; {float(exact / 100):.4f} is printed as {printed / 100}" for printed, exact in wrong)
     is_truncated = [int(exact) for _, exact in wrong] == [printed for printed, _ in wrong]
     correction = ", ".join(str(round(exact) / 100) for _, exact in wrong)
-    return slip(not wrong, is_truncated, correction, f"{len(rows) - len(wrong)} quotients are rounded{others}")
+    message = f"{len(rows) - len(wrong)} quotients are rounded, {sum(rounded_up)} of them up{others}"
+    return slip(not wrong, is_truncated and any(rounded_up), correction, message)
 
 
 @claim("kovalevsky-schulz.100")

@@ -48,10 +48,8 @@ def vertex_formula_with_minus() -> Check:
             right = all((1 - share) * p[k] + factor * share * q[k] == middle[k] for k in (1, 2))
             pair_counts[sign] += 0 < share < 1 and right
     corrected = 1 not in exact_hull(points).vertices and pair_counts["+"] == 2
-    message = (
-        f"ordered pairs that give the middle point {middle}: {pair_counts['+']} with a plus, "
-        f"{pair_counts['-']} with the printed minus"
-    )
+    message = f"ordered pairs that give the middle point {middle}: {pair_counts['+']} with a plus, "
+    message += f"{pair_counts['-']} with the printed minus"
     return slip(pair_counts["-"], corrected, "a plus", message)
 
 

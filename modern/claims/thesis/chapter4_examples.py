@@ -259,18 +259,12 @@ def slips_of_4_8(which: str) -> Check:
     listed, in_table = (Point("", tuple(map(Fraction, map(str, p))), "", "") for p in printed_points)
     if which == "list":
         nonzero = [plane.number for plane in theorem.planes if "Q1" in plane.vertices and plane.at(listed)]
-        return slip(
-            nonzero != [1, 2, 7],
-            _is_one("Q1", (-4, 4, 2)),
-            "(-4, 4, 2)",
-            f"equations {', '.join(map(str, nonzero))}, which name Q1, are not 0 at (-4, -4, 2)",
-        )
+        message = f"equations {', '.join(map(str, nonzero))}, which name Q1, are not 0 at (-4, -4, 2)"
+        return slip(nonzero != [1, 2, 7], _is_one("Q1", (-4, 4, 2)), "(-4, 4, 2)", message)
     nonzero = [plane.number for plane in theorem.planes if "Q6" in plane.vertices and plane.at(in_table)]
     not_a_point = in_table.at not in [point.at for point in theorem.points]
-    message = (
-        f"(3, 4, -1) is none of the nine points, and equations {', '.join(map(str, nonzero))} of (3, 4, 1) are "
-        "not 0 there"
-    )
+    numbers = ", ".join(map(str, nonzero))
+    message = f"(3, 4, -1) is none of the nine points, and equations {numbers} of (3, 4, 1) are not 0 there"
     return slip(not (not_a_point and nonzero == [1, 6]), _is_one("Q6", (3, 4, 1)), "(3, 4, 1)", message)
 
 

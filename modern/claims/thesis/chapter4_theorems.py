@@ -53,12 +53,8 @@ def inequalities_without_z() -> Check:
     a, b, c, d = theorem_of("4.2").plane(7).coefficients
     as_printed, right = a * point[0] + b * point[1] + c, plane_value((int(a), int(b), int(c), int(d)), point)
     passed = as_printed > 0 > right and [*map(Fraction, point)] == [*theorem_of("4.2").points[5].at]
-    return slip(
-        not passed,
-        right < 0 and worked_example("4.2", "signs").holds,
-        "A x + B y + C z + D",
-        f"at point 6: {as_printed} as printed, {right} with the terms in z and D",
-    )
+    message = f"at point 6: {as_printed} as printed, {right} with the terms in z and D"
+    return slip(not passed, right < 0 and worked_example("4.2", "signs").holds, "A x + B y + C z + D", message)
 
 
 @claim("thesis.123")
