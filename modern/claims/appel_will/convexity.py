@@ -72,11 +72,14 @@ def method_against_judge(cases: int = CASES, method: Method = CORRECTED) -> Chec
         faces, loops = ({frozenset(map(frozenset, sides(ring))) for ring in part} for part in rings)
         checks.append(hull.edges == sampled.judge.edges() and loops == faces)
         checks.append(hull.table.closed)
-        # Each point of the map is an end of two neighbouring lines of its loop.
+        # Each line of a loop starts at a point of the map, at LC1 if its entry is positive, and ends at the next point.
         for loop, ring in zip(hull.table.loops, hull.surfaces, strict=True):
-            ends = [{*hull.edges[abs(entry) - 1]} for entry in loop.entries]
-            checks.append(all(point in ends[k - 1] & ends[k] for k, point in enumerate(ring)))
-    message = f"the edges and faces of {cases} sets are those of the exact hull, and the map lists the common points"
+            ends = [hull.edges[abs(entry) - 1][:: 1 if entry > 0 else -1] for entry in loop.entries]
+            checks.append(all(ends[k - 1][1] == point == ends[k][0] for k, point in enumerate(ring)))
+    message = (
+        f"in {cases} sets, the loops are the convex faces of the exact hull and use each edge twice; the map lists "
+    )
+    message += "the common points of neighbouring lines: LC1 for a positive entry of the loop, LC2 for a negative one"
     return searched(SETS[3], cases, checks, message)
 
 
@@ -85,8 +88,10 @@ def corners_of_convex_polygon(cases: int = CASES) -> Check:
     checks = []
     for sampled in sampled_sets(2, cases):
         ring = [sampled.points[k][:2] for k in sampled.judge.polygon]
-        checks.append(len({turn > 0 for turn in turns(ring)}) == 1 and 0 not in turns(ring))
-    return searched(SETS[2], cases, checks, f"all corners of each of {len(checks)} polygons turn the same way")
+        areas = [area(p, q, r) for p, q in sides(ring) for r in ring if r not in (p, q)]
+        checks.append(min(areas) > 0 or max(areas) < 0)
+    message = f"in {len(checks)} polygons, all other corners are on the same side of each side"
+    return searched(SETS[2], cases, checks, message)
 
 
 def draw_points(random: Random, count: tuple[int, int], coordinates: tuple[int, int]) -> tuple[Flat, ...]:

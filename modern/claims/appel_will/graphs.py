@@ -29,7 +29,8 @@ def faces_from_graph(cases: int = CASES) -> Check:
         found_faces = {cycle for cycle in _cycles(graph) if _connected(graph, cycle)}
         checks.append(found_faces == {frozenset(facet.polygon) for facet in judge.facets})
         faces += len(found_faces)
-    return searched(SETS[3], cases, checks, f"{faces} faces of {len(checks)} hulls follow from their edges alone")
+    message = f"{faces} faces of {cases} drawn sets and three fixed ones follow from their edges alone"
+    return searched(SETS[3], cases, checks, message)
 
 
 def _graph(judge: ExactHull) -> Graph:
@@ -70,7 +71,10 @@ def coplanar_loops(cases: int = CASES) -> Check:
             if len(points) == 3:
                 checks.append(sum(points <= {*facet.polygon} for facet in judge.facets) <= 1)
         checks.append(len({facet.plane for facet in judge.facets}) == len(judge.facets))
-    message = f"in {len(_sets(cases))} hulls, no two edges are on two common loops, and no two loops are coplanar"
+    message = (
+        f"in {cases} drawn sets and three fixed ones, no two edges with a common end have two common loops, and no "
+    )
+    message += "two loops are coplanar"
     return searched(SETS[3], cases, checks, message)
 
 

@@ -37,7 +37,7 @@ def new_lines(cases: int = 10) -> Check:
 
 
 IMAGES: Generator[tuple[Flat, ...]] = Generator(
-    "3 to 5 projected points around the origin",
+    "3 to 5 images with coordinates from -4 to 4, none at the origin",
     12,
     partial(draw_points, count=(3, 5), coordinates=(-4, 4)),
     lambda images: len({*images}) == len(images) > 2 and (0, 0) not in images,
@@ -78,7 +78,7 @@ def order_on_one_ray(cases: int = 10) -> Check:
         orders = [[near, far], [far, near]]
         return all([p for p in star_polygon([*order, *rest]) if p not in rest] == order for order in orders)
 
-    return search(IMAGES, is_listed_order, cases, "sorting by angle leaves two images on one ray in either order")
+    return search(IMAGES, is_listed_order, cases, "an image and one twice as far can be in either order by angle")
 
 
 @claim("appel-will.60", full=1_000)
@@ -87,7 +87,7 @@ def opposite_images(cases: int = 10) -> Check:
         opposite = (*images[:3], (-images[0][0], -images[0][1]))
         return holds_origin(opposite) and not any(as_corrected([*order]) for order in permutations(opposite))
 
-    return search(IMAGES, is_inside, cases, "C is in the hull, which the test finds for all orders of the images")
+    return search(IMAGES, is_inside, cases, "C is in the hull of three images and one opposite, in any order")
 
 
 @claim("appel-will.111")

@@ -62,8 +62,8 @@ def local_corner_inside_hull() -> Check:
 
 @claim("kovalevsky-schulz.18", full=4_000)
 def fewer_corners_with_more_neighbours(cases: int = 5) -> Check:
-    message = "local corners by 26 neighbours are local corners by 6"
-    return search(SOLIDS, lambda solid: local(solid) <= local(solid, CENTRES, 6), cases, message)
+    message = "local corners by 26 neighbours are local corners by 6, among voxels and among corners of voxels"
+    return search(SOLIDS, lambda solid: all(local(solid, of) <= local(solid, of, 6) for of in KINDS), cases, message)
 
 
 @claim("kovalevsky-schulz.34", full=4_000)
@@ -180,7 +180,7 @@ def corners_of_eight_voxels() -> Check:
         ((1, 1, 1) in local(voxels, VERTICES, 6)) == (len(voxels) == 1) == beyond.isdisjoint(_corners(voxels))
         for voxels in subsets
     ]
-    message = "a corner is between two neighbours if and only if several voxels meet there, which have edges in line"
+    message = "without other voxels, the corner is between two neighbours exactly if several meet there, edges in line"
     return exhausted("sets of the eight voxels at a corner that contain the first of them", outcomes, message)
 
 

@@ -150,8 +150,8 @@ def edges_that_can_be_visible(cases: int = CASES) -> Check:
                 is_hidden = exact_hull([*enlarged, beside]).inside == (len(enlarged),)
                 outcomes.append(is_hidden != (edge.kind in (INNER, CONTOUR)))
                 hidden += is_hidden
-    message = f"hulls hide {hidden} of their own {len(outcomes)} edges: all except the inner and the contour edges"
-    return searched(SETS[3], cases, [*outcomes, hidden], message)
+    message = f"seen from {len(DIRECTIONS)} directions, hulls hide {hidden} of their own {len(outcomes)} edges: all "
+    return searched(SETS[3], cases, [*outcomes, hidden], f"{message}except the inner and the contour edges")
 
 
 @claim("nakamae-nishita.15", full=600)
@@ -211,15 +211,17 @@ def divided_box(cases: int = 2) -> Check:
         x, y, z, cut = division
         halves: tuple[Box, ...] = (((0, 0, 0), (cut, y, z)), ((cut, 0, 0), (x, y, z)))
         scenes = (halves, "box"), (halves, ""), ((((0, 0, 0), (x, y, z)),), "")
-        together, apart, whole = (
-            _visible_length(draw(polyhedra(boxes, thing), parallel(EYE))) for boxes, thing in scenes
-        )
-        return together == whole < apart
+        lines = [_visible_lines(draw(polyhedra(boxes, thing), parallel(EYE))) for boxes, thing in scenes]
+        together, apart, whole = (sum(abs(b - a) for line in part for a, b in line) for part in lines)
+        # The points of an edge of the whole box have two coordinates that are 0 or the size of the box.
+        on_box = all(sum(a == b in (0, s) for (a, b), s in zip(e, division, strict=False)) == 2 for e in lines[0])
+        return on_box and together == whole < apart
 
-    message = "the visible lines of the parts are as long as those of the whole box, but longer with ghost lines"
-    return search(DIVISIONS, restores, cases, message)
+    message = "the visible lines of the parts are as long as those of the whole box and on its edges, but longer with "
+    return search(DIVISIONS, restores, cases, f"{message}ghost lines")
 
 
-def _visible_length(drawing: Drawing) -> Fraction:
+def _visible_lines(drawing: Drawing) -> list[list[tuple[Fraction, Fraction]]]:
+    """Return the coordinates of both ends of each visible piece, as one pair for each axis."""
     ends = ((point_of(drawing, p, p.first), point_of(drawing, p, p.last)) for p in drawing.pieces if p.visible)
-    return sum((abs(b - a) for start, end in ends for a, b in zip(start, end, strict=True)), Fraction(0))
+    return [[*zip(start, end, strict=True)] for start, end in ends]

@@ -3,6 +3,7 @@
 An entry of a table tells on which side of a line of one contour a vertex of the other contour lies.
 """
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import cache
@@ -55,7 +56,7 @@ def _draw_polygon(random: Random) -> tuple[Place, ...]:
     return tuple(points[k][:2] for k in exact_hull(points).polygon[::-1])
 
 
-POLYGONS = Generator("convex polygons with coordinates from -2 to 6", 32, _draw_polygon, bool)
+POLYGONS = Generator("convex polygons with coordinates from -2 to 6, and five fixed ones", 32, _draw_polygon, bool)
 
 
 @cache
@@ -125,7 +126,7 @@ def correlations(cases: int = CASES) -> Check:
         relations = {"apart": not overlap(v, w), "encloses": encloses, "partly": partly}
         checks.append(sum(relations.values()) == 1)
         counts = {name: n + relations[name] for name, n in counts.items()}
-    message = "pairs: " + ", ".join(f"{name} {number}" for name, number in counts.items())
+    message = "each pair has one correlation: " + ", ".join(f"{name} {number}" for name, number in counts.items())
     return searched(POLYGONS, 2 * cases, [*checks, *counts.values()], message)
 
 
@@ -138,14 +139,18 @@ def formula_1() -> Check:
         # Both differences are polynomials, and the result is 0 only if both are.
         return abs(computed + determinant) + abs(determinant + right * (x * x + y * y))
 
-    return identity(difference, (2, 2, 2, 2, 1, 1), "the value is proportional to the distance to the right")
+    argument = "The value at a point is its distance to the right of the line times the length of the segment."
+    return identity(difference, (2, 2, 2, 2, 1, 1), "formula (1) is positive exactly to the right of the line", argument)
 
 
 @claim("nakamae-nishita.30", "nakamae-nishita.31", "nakamae-nishita.32", full=25)
 def formula_3(cases: int = CASES) -> Check:
     meetings = [pair for v, w in pairs(cases) for pair in numbers_of_meetings(v, w)]
-    outcomes = [d == expected for d, expected in meetings] + [{-4, -2, -1, 0} == {d for d, _ in meetings}]
-    return searched(POLYGONS, 2 * cases, outcomes, f"d is right for {len(meetings)} pairs of segments")
+    numbers = Counter(d for d, _ in meetings)
+    outcomes = [d == expected for d, expected in meetings] + [{-4, -2, -1, 0} == {*numbers}]
+    shown = ", ".join(f"{d} for {number}" for d, number in numbers.items())
+    message = f"d is right for {len(meetings)} pairs of segments: {shown}"
+    return searched(POLYGONS, 2 * cases, outcomes, message)
 
 
 @claim("nakamae-nishita.29", "nakamae-nishita.33", full=25)

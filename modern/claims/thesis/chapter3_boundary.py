@@ -62,8 +62,9 @@ def end_of_the_procedure(dimension: int, cases: int = 2) -> Check:
         removed[0] += len(remaining)
         removed[1] += len(used) - len(hull.vertices)
         removed[2] += len(hull.history[-1].equations) - len(hull.faces)
-    message = "points neither added nor eliminated: {}, all on the boundary; added points that are no vertices, "
-    message = f"{message}removed: {{}}; duplicate equations, removed: {{}}".format(*removed)
+    message = f"in {cases} drawn sets and a fixed one, points neither added nor eliminated: {removed[0]}, all on the "
+    message += f"boundary; added points that are no vertices, removed: {removed[1]}; duplicate equations, removed: "
+    message += str(removed[2])
     return searched(LATTICE_SETS[dimension], cases, [*outcomes, *removed], message)
 
 
@@ -77,7 +78,8 @@ def duplicate_lines(cases: int = 3 * CASES) -> Check:
         for face in hull.faces:
             side = used & {*on_line(points, *face.polygon)}
             outcomes += [sum({*ends} <= side for ends in last) >= 2] if len(side) > 2 else []
-    message = f"{sum(outcomes)} of {len(outcomes)} sides with three or more added points have two or more equations"
+    message = f"{sum(outcomes)} of {len(outcomes)} sides with three or more added points, in {cases} drawn sets and a "
+    message += "fixed one, have two or more equations"
     return searched(LATTICE_SETS[2], cases, outcomes, message)
 
 
@@ -96,8 +98,9 @@ def planes_at_vertex(cases: int = CASES) -> Check:
             on = sum(not plane_value(facet.plane, point) for facet in judge.facets)
             checks.append((on >= 3) == (k in judge.vertices))
     message = (
-        f"{sum(checks)} of {len(checks)} points: a vertex lies in three or more planes, any other point in two or fewer"
+        f"{sum(checks)} of {len(checks)} points of {cases} drawn sets and a pyramid: a vertex lies in three or more "
     )
+    message += "planes, any other point in two or fewer"
     return searched(LATTICE_SETS[3], cases, checks, message)
 
 
@@ -149,7 +152,7 @@ def hull_of_projection(cases: int = CASES) -> Check:
                 image = [_with_0(point, axis) for point in points]
                 before, after = (parts(some, exact_hull(some)) for some in (points, image))
                 checks.append(before == after)
-    message = "projections keep the vertices, the boundary and inside points, and the points of each line"
+    message = "projections, from z = x - 2y + 3 or z = 2x, keep the vertices, boundary and inside points, and all lines"
     return searched(SETS[2], cases, checks, f"{sum(checks)} of {len(checks)} {message}")
 
 

@@ -15,7 +15,6 @@ from modern.claims.sampled_sets import (
     Plane,
     Point,
     flat_and_spatial_sets,
-    plane_through,
     plane_value,
     sampled_sets,
 )
@@ -133,16 +132,8 @@ def equation_of_line() -> Check:
         return a * (u1 + along * u + right * v) + b * (v1 + along * v - right * u) + c - right * (u * u + v * v)
 
     message = "in the two coordinates of the equation, its left side is 0 exactly on the line through the two points"
-    return identity(difference, (2, 2, 2, 2, 1, 1), message)
-
-
-@claim("thesis.51")
-def equation_of_plane() -> Check:
-    def difference(*numbers: int) -> int:
-        p, q, r = numbers[:3], numbers[3:6], numbers[6:]
-        return int(plane_as_printed(p, q, r) != plane_through(p, q, r))  # type: ignore[arg-type]
-
-    return identity(difference, (1,) * 9, "(3.4) has the coefficients of the plane through three points")
+    argument = "The left side at a point is its distance to the right of the line times the distance of both points."
+    return identity(difference, (2, 2, 2, 2, 1, 1), message, argument)
 
 
 def plane_as_printed(i: Point, j: Point, k: Point) -> Plane:

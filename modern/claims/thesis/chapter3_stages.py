@@ -35,7 +35,8 @@ from modern.geometry.vectors import cross, dot, minus
 @claim("thesis.204", "thesis.31", "thesis.78", "thesis.100", kind="finite", full=300)
 @claim("thesis.216", "thesis.72", "thesis.220", "thesis.225", kind="counts", full=300)
 @claim("thesis.75", kind="decreasing", full=300)
-@claim("thesis.68", "thesis.76", "thesis.79", "thesis.101", "thesis.255", "thesis.265", kind="accepted", full=300)
+@claim("thesis.68", kind="supporting", full=300)
+@claim("thesis.76", "thesis.79", "thesis.101", "thesis.255", "thesis.265", kind="accepted", full=300)
 @claim("thesis.70", kind="farthest_outside", full=300)
 @claim("thesis.73", "thesis.220", kind="replaced_line", full=300)
 @claim("thesis.224", "thesis.89", kind="replaced_plane", full=300)
@@ -153,6 +154,15 @@ def _accepted_planes(sampled: SampledSet) -> Iterator[bool]:
         yield any(plane_value(before.equations[record.checked - 1], point) > 0 for point in sampled.points)
 
 
+def _supporting(sampled: SampledSet) -> Iterator[bool]:
+    remaining, planes = {*range(len(sampled.points))}, {facet.plane for facet in sampled.judge.facets}
+    for stage, record in zip(sampled.stages(), sampled.hull.history, strict=True):
+        remaining -= {*record.struck}
+        for plane in stage.equations:
+            is_positive = any(plane_value(plane, sampled.points[k]) > 0 for k in remaining)
+            yield is_positive != (reduced_plane(plane) in planes)
+
+
 def _farthest_outside(sampled: SampledSet) -> Iterator[bool]:
     eliminated_so_far: set[int] = set()
     for (before, _, record, added), elimination in zip(_steps(sampled), sampled.hull.history, strict=False):
@@ -199,9 +209,10 @@ def _counts(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _renumbering(sampled: SampledSet) -> Iterator[bool]:
-    for before, after, record, _ in _steps(sampled):
+    for before, after, record, added in _steps(sampled):
         kept_lines = [d for k, d in enumerate(before.defining) if k != record.checked - 1]
-        yield [{*d} for d in after.defining[:-2]] == [{*d} for d in kept_lines]
+        new_are_last = all(added in d for d in after.defining[-2:])
+        yield new_are_last and [{*d} for d in after.defining[:-2]] == [{*d} for d in kept_lines]
 
 
 def _vertices_used(sampled: SampledSet) -> Iterator[bool]:
@@ -282,6 +293,7 @@ _PROPERTIES = {
     "decreasing": (_decreasing, "N_j counts the points not inside H_j and never grows"),
     "finite": (_finite, "at most N - 3 hulls follow H_1 in a plane, and at most N - 4 in space"),
     "accepted": (_accepted_planes, "no equation before number NETC is positive at any point, but equation NETC is"),
+    "supporting": (_supporting, "an equation supports the last hull exactly if it is positive at no remaining point"),
     "farthest_outside": (_farthest_outside, "the new point has the largest value of equation NETC, which is positive"),
     "largest_of_all": (_largest_of_all, "no point, eliminated or not, has a larger value than the new point"),
     "replaced_line": (_replaced_facet, "two lines from the new point to the ends of one line replace this line"),

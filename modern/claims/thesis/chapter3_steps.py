@@ -80,7 +80,7 @@ def common_first_steps(cases: int = CASES) -> Check:
 
 @claim("thesis.59", full=300)
 def members_by_signs(cases: int = 1) -> Check:
-    checks = []
+    checks, members = [], []
     for sampled in flat_and_spatial_sets(cases):
         # By Caratheodory's theorem, the combinations of points in space are those of the corners of a tetrahedron.  A
         # point outside the plane of a flat set makes a tetrahedron of each triangle.
@@ -91,9 +91,10 @@ def members_by_signs(cases: int = 1) -> Check:
         for p, q, r in zip(sampled.points, sampled.points[1:], sampled.points[2:], strict=False):
             # The fourth corner of a parallelogram is in the plane of a flat set.
             x, y, z = (a + b - c for a, b, c in zip(p, q, r, strict=True))
-            is_member = any(in_tetrahedron((x, y, z), body) for body in bodies)
-            checks.append(is_member == all(plane_value(f.plane, (x, y, z)) <= 0 for f in sampled.judge.facets))
-    return all_hold(BOTH, 2 * cases, checks, "points are convex combinations exactly if no equation is positive there")
+            members.append(any(in_tetrahedron((x, y, z), body) for body in bodies))
+            checks.append(members[-1] == all(plane_value(f.plane, (x, y, z)) <= 0 for f in sampled.judge.facets))
+    message = f"points, {sum(members)} of them in the hull, are convex combinations exactly if no equation is positive"
+    return all_hold(BOTH, 2 * cases, checks, message)
 
 
 @claim("thesis.213", "thesis.58", full=300)
@@ -251,9 +252,9 @@ def order_of_replacement(cases: int = CASES) -> Check:
         text, listing = (
             [f.lowest for f in hull.faces] for hull in (convex_hull(points, text=True), convex_hull(points))
         )
-        outcomes.append(sorted(text) == sorted(listing) and len(text) == len(exact_hull(points).facets))
+        outcomes.append(sorted(text) == sorted(listing) == sorted(f.plane for f in exact_hull(points).facets))
         reordered += text != listing
-    message = f"{sum(outcomes)} of {cases} sets get the same planes by text and listing, {reordered} in another order"
+    message = f"{sum(outcomes)} of {cases} sets get the hull's planes by text and listing, {reordered} in another order"
     return searched(WITH_FOURTH_POINT, cases, [*outcomes, reordered], message)
 
 

@@ -47,8 +47,8 @@ from modern.thesis.job import run_hull
 Pair = tuple[int, int]
 # Rules of the text for each stage of the construction, as named in ``chapter3_stages``.
 _RULES_OF_STAGES = ("struck_inside", "accepted", "farthest_outside", "replaced_line", "renumbering")
-# The statements of the listings that eliminate inside points (E), check a hull (C) and add a point (G).
-_ELIMINATE_CHECK_GROW = {"program2.f": {106: "E", 124: "C", 133: "G"}, "program3.f": {103: "E", 114: "C", 125: "G"}}
+# The statements of the listings that eliminate inside points (E), test an equation (C) and add a point (G).
+_ELIMINATE_CHECK_GROW = {"program2.f": {106: "E", 124: "C", 133: "G"}, "program3.f": {103: "E", 116: "C", 125: "G"}}
 
 
 @claim("thesis.267", full=100)
@@ -113,23 +113,18 @@ def _duplicates_removed_as_worded(
 def plane_duplicates_as_printed(cases: int = CASES) -> Check:
     checks, differing = [], 0
     for points in (PYRAMID, *LATTICE_SETS[3].cases(cases)):
-        last = convex_hull(points, history=True).history[-1].equations
+        hull = convex_hull(points, history=True)
+        last = hull.history[-1].equations
         planes = [plane_through(points[a], points[b], points[c]) for a, b, c in last]
         # Page 34 removes plane j if it contains the three points of a later plane i.
-        kept_indices = [
-            j
-            for j, plane in enumerate(planes)
-            if not any(not any(plane_value(plane, points[k]) for k in last[i]) for i in range(j + 1, len(last)))
+        kept_planes = [
+            _unsigned(plane)
+            for j, plane in enumerate(planes, 1)
+            if not any(not any(plane_value(plane, points[k]) for k in later) for later in last[j:])
         ]
-        kept_planes = [_unsigned(planes[j]) for j in kept_indices]
         checks.append(sorted(kept_planes) == sorted(_unsigned(facet.plane) for facet in exact_hull(points).facets))
-        differing += kept_indices != [
-            j for j, sampled in enumerate(planes) if _unsigned(sampled) not in map(_unsigned, planes[:j])
-        ]
-    message = (
-        f"{sum(checks)} of {len(checks)} sets keep one equation of each plane; in {differing} sets it is not "
-        "the one that the listing keeps"
-    )
+        differing += kept_planes != [_unsigned(face.lowest) for face in hull.faces]
+    message = f"a pyramid and {cases} sets keep one equation of each plane, {differing} not in the listing's order"
     return searched(LATTICE_SETS[3], cases, [*checks, differing], message)
 
 
@@ -165,21 +160,26 @@ def consecutive_hulls() -> Check:
     return slip(0 in numbers, all(checks), "2", message)
 
 
-@claim("thesis.219", full=100)
+@claim("thesis.219", "thesis.265", full=100)
 def first_equation_tested(cases: int = CASES) -> Check:
     outcomes, numbers = [], []
     for sampled in flat_and_spatial_sets(cases):
         # The test of H_1 begins with equation 1.
         stopped = 1
-        for (before, _), (step, netc) in pairwise(_traced(sampled.points)):
+        for (before, last), (step, netc) in pairwise(_traced(sampled.points)):
             if before + step == "EC":
                 outcomes.append(netc == stopped)
                 numbers.append(netc)
+            if before == "C" and step in "CG":
+                outcomes.append(netc == last + (step == "C"))
             if step == "G":
                 stopped = netc
     later = sum(number > 1 for number in numbers)
     message = f"{len(numbers)} hulls: the test begins with equation 1 for H_1, and otherwise with the equation at "
-    message += f"which the test of the hull before stopped; in {later} cases, this is a later equation than number 1"
+    message += (
+        f"which the test of the hull before stopped, in {later} cases a later one; after each equation, the next "
+    )
+    message += "is tested or a point is added"
     return searched(BOTH, 2 * cases, [*outcomes, later], message)
 
 

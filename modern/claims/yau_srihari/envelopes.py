@@ -25,7 +25,7 @@ from modern.digital.solids import listed
 from modern.geometry.mesh import sides
 from modern.geometry.vectors import dot
 from modern.papers.yau_srihari import OctreeHull, Printed
-from modern.papers.yau_srihari.convexity import convex_deficiency, is_digitally_convex, is_simple
+from modern.papers.yau_srihari.convexity import convex_deficiency, is_digitally_convex, is_midpoint_convex, is_simple
 from modern.papers.yau_srihari.hull import components
 from modern.papers.yau_srihari.octree import count, voxels_of
 from modern.papers.yau_srihari.quadtree import Leaf, graph_side, no_columns, written
@@ -105,10 +105,16 @@ def algorithm_as_printed(name: str) -> Check:
 
 @claim("yau-srihari.1")
 def minimum_not_unique() -> Check:
-    both: list[Point] = [(0, 0, 0), (1, 1, 0)]
-    least = [is_digitally_convex(array_of([*both, third])) for third in ((1, 0, 0), (0, 1, 0))]
-    message = "two voxels with a common edge are not convex, but either of two others makes them so"
-    return exhibited(all(least) and not is_simple(array_of(both)), message)
+    outcomes = []
+    # Definitions 3.2.2 and 3.2.3, as far as this project can test the latter
+    for is_convex, end, others in (
+        (is_midpoint_convex, (2, 1, 0), ((1, 0, 0), (1, 1, 0))),
+        (is_digitally_convex, (1, 1, 0), ((1, 0, 0), (0, 1, 0))),
+    ):
+        both: list[Point] = [(0, 0, 0), end]
+        outcomes += [not is_convex(array_of(both)), *(is_convex(array_of([*both, other])) for other in others)]
+    message = "by each of two definitions, some two voxels are not convex, but either of two others makes them so"
+    return exhibited(all(outcomes), message)
 
 
 @claim("yau-srihari.48", "yau-srihari.53", "yau-srihari.54", "yau-srihari.59", "yau-srihari.103", full=500)
@@ -147,13 +153,15 @@ def disconnected_hull() -> Check:
     return refuted(wrong, message)
 
 
-@claim("yau-srihari.5")
+@claim("yau-srihari.5", full=500)
 def solid_from_deficiency(cases: int = 3) -> Check:
     def is_described(voxels: tuple[Point, ...]) -> object:
         solid = array_of(voxels)
-        return np.array_equal(hull_of(voxels).filled & ~convex_deficiency(solid), solid)
+        without = hull_of(voxels).filled & ~convex_deficiency(solid)
+        return _envelopes_agree(voxels) and np.array_equal(without, solid)
 
-    return search(SOLIDS, is_described, cases, "each hull contains its solid, which is the hull without the deficiency")
+    message = "each solid is what remains of the digital points in its exact hull without the deficiency"
+    return search(SOLIDS, is_described, cases, message)
 
 
 @claim("yau-srihari.35")

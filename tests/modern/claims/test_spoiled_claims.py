@@ -58,7 +58,7 @@ BY_HAND: dict[str, tuple[str, Callable[[Any], object]]] = {
     "appel-will.11": ("area", lambda _: lambda *corners: 1),
     "appel-will.37": ("combinations", lambda original: lambda items, r: [*original(items, r)][1:]),
     "appel-will.80": ("findings", lambda original: lambda paper: [replace(f, produced=()) for f in original(paper)]),
-    "kovalevsky-schulz.18": ("local", lambda original: lambda solid, *_: original(solid) if _ else {*solid}),
+    "kovalevsky-schulz.18": ("local", lambda original: lambda solid, of, n=26: original(solid, of, 32 - n)),
     "kovalevsky-schulz.91": (
         "results_of",
         lambda original: lambda paper: [replace(result, printed=result.corrected) for result in original(paper)],
