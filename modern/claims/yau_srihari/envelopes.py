@@ -106,14 +106,14 @@ def algorithm_as_printed(name: str) -> Check:
 @claim("yau-srihari.1")
 def minimum_not_unique() -> Check:
     outcomes = []
-    # Definitions 3.2.2 and 3.2.3, as far as this project can test the latter
+    # By definition 3.2.2, and by Kim and Rosenfeld's test (3.2.3)
     for is_convex, end, others in (
         (is_midpoint_convex, (2, 1, 0), ((1, 0, 0), (1, 1, 0))),
         (is_digitally_convex, (1, 1, 0), ((1, 0, 0), (0, 1, 0))),
     ):
         both: list[Point] = [(0, 0, 0), end]
         outcomes += [not is_convex(array_of(both)), *(is_convex(array_of([*both, other])) for other in others)]
-    message = "by each of two definitions, some two voxels are not convex, but either of two others makes them so"
+    message = "by 3.2.2 and by the test of 3.2.3, some two voxels are not convex, but either of two others makes them so"
     return exhibited(all(outcomes), message)
 
 
