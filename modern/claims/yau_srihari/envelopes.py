@@ -113,7 +113,7 @@ def minimum_not_unique() -> Check:
     ):
         both: list[Point] = [(0, 0, 0), end]
         outcomes += [not is_convex(array_of(both)), *(is_convex(array_of([*both, other])) for other in others)]
-    message = "by 3.2.2 and by the test of 3.2.3, some two voxels are not convex, but either of two others makes them so"
+    message = "by 3.2.2 and the test of 3.2.3, some two voxels are not convex, but either of two others makes them so"
     return exhibited(all(outcomes), message)
 
 
