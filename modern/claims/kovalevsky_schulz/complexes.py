@@ -135,7 +135,7 @@ def incidence_by_coordinates() -> Check:
     outcomes.append(any(near[f] - near[e] for e in cells for f in near[e] & {*cells}))
     message = f"each of {len(cells)} cells has one element, whose coordinates tell its dimension and incident cells; "
     message += "incidence is symmetric and reflexive, but not transitive"
-    return exhausted("cells of a block of eight voxels and pairs of them", outcomes, message)
+    return exhausted("cells of a block of eight voxels, which rasters repeat, and pairs of them", outcomes, message)
 
 
 @claim("kovalevsky-schulz.32", "kovalevsky-schulz.138")
@@ -146,7 +146,7 @@ def cells_with_common_coordinates() -> Check:
         dimensions.setdefault(farthest_ground_cell(cell), []).append(dimension(cell))
     outcomes = [sorted(of_voxel) == [0, 1, 1, 1, 2, 2, 2, 3] for of_voxel in dimensions.values()]
     message = "eight cells, as many as a byte has bits, have the coordinates of each voxel; one of them is a 0-cell"
-    return exhausted("voxels of a block of 64", outcomes, message)
+    return exhausted("voxels of a block of 64, which rasters repeat", outcomes, message)
 
 
 @cache

@@ -116,7 +116,7 @@ def _equations(theorem: Theorem) -> Check:
 
 
 def _signs(theorem: Theorem) -> Check:
-    right = sum((theorem.plane(n).at(_point(theorem, p)) > 0) == (sign == "+") for n, p, sign in theorem.signs)
+    right = sum(theorem.plane(n).at(_point(theorem, p)) * int(f"{sign}1") > 0 for n, p, sign in theorem.signs)
     return exhibited(right == len(theorem.signs), f"{right} of {len(theorem.signs)} signs are as stated")
 
 

@@ -11,13 +11,15 @@ from operator import mul
 from emulator.errors import DeckError
 from emulator.language.cards import deck_from_lines
 from emulator.language.formats import Literal
-from emulator.language.objectcode import Program
+from emulator.language.objectcode import Line, Program
 from emulator.machine.machine import Machine
 from emulator.machine.result import Options
+from emulator.machine.session import Session
+from emulator.machine.timing import measure
 from emulator.numbers import numbers
 from modern.claims.evidence import Check, claim, exhibited, searched
 from modern.claims.hulls import convex_hull, exact_hull
-from modern.claims.sampled_sets import BOTH, CASES, flat_and_spatial_sets
+from modern.claims.sampled_sets import BOTH, CASES, SETS, flat_and_spatial_sets
 from modern.claims.thesis.chapter3_equations import procedure_against_judge
 from modern.claims.thesis.chapter3_stages import stage_property
 from modern.claims.thesis.chapter3_steps import fourth_point_by_largest
@@ -184,6 +186,10 @@ def lines_of_added_points(cases: int = CASES) -> Check:
     return check.unless(table.evidence.violation, table.evidence.violation)
 
 
+# The number of points of each example of chapter 6, and their dimension.
+_EXAMPLES = {1: (3, 2), 2: (9, 1), 3: (1, 0), 4: (8, 2), 5: (15, 3), 6: (10, 3)}
+
+
 @claim("thesis.172", examples=(1,))
 @claim("thesis.173", examples=(2,))
 @claim("thesis.174", examples=(3,))
@@ -192,13 +198,15 @@ def lines_of_added_points(cases: int = CASES) -> Check:
 @claim("thesis.177", examples=(6,))
 @claim("thesis.285")
 def printed_hulls(examples: Iterable[int] = EXAMPLES) -> Check:
-    checks = []
+    checks, sets = [], []
     for example in examples:
         points = points_on(input_deck(example))
+        judge = exact_hull(points)
+        sets.append((len(points), judge.dimension))
         last = [result for result in prints(example) if result.device == "punch"][-1]
         hull = read_hull(last.lines)
         outcome = from_card_hull("print", f"program{last.program}", hull, points)
-        difference = disagreement(outcome, from_judge(exact_hull(points), points), points)
+        difference = disagreement(outcome, from_judge(judge, points), points)
         on_equation = _on_equations(hull)
         planes: dict[tuple[int, ...], list[tuple[Fraction, ...]]] = {}
         for vertices, number in on_equation:
@@ -210,8 +218,9 @@ def printed_hulls(examples: Iterable[int] = EXAMPLES) -> Check:
         else:
             complete = difference.error == 0
         checks.append(difference.agrees and not outcome.strange and complete and on_equation == _listed(hull))
-    message = f"printed hulls that equal the exact hull in everything printed: {sum(checks)} of {len(checks)}"
-    return exhibited(all(checks), message)
+    message = f"printed hulls that equal the exact hull in everything printed: {sum(checks)} of {len(checks)}; "
+    message += f"points and dimension: {', '.join(f'{n} and {dimension}' for n, dimension in sets)}"
+    return exhibited(all(checks) and sets == [_EXAMPLES[example] for example in examples], message)
 
 
 def _differ(first: Sequence[Fraction], second: Sequence[Fraction]) -> bool:
@@ -250,7 +259,10 @@ def first_card() -> Check:
     passed = all(
         len(first) == 2 and len(others) == int(first) and {*map(len, others)} == {3 * 14} for first, *others in decks
     )
-    message = f"the {len(decks)} printed decks have N in columns 1-2 and then N cards, which are blank after column 42"
+    message = (
+        f"the {len(decks)} printed decks have N and then N cards with three numbers of 14 characters; the columns "
+    )
+    message += "1-2 and 1-42 follow from the FORMATs"
     return exhibited(passed and all(words in listing for words in read), message)
 
 
@@ -284,7 +296,28 @@ def procedure_in_exact_arithmetic(dimensions: tuple[int, ...], cases: int = CASE
     return procedure_against_judge(dimensions, cases).unless(all(wrong), case)
 
 
-# Words of the comment cards that mark the steps; each stands on one comment card.
+@claim("thesis.263", full=100)
+def inside_heading(cases: int = CASES) -> Check:
+    tests: list[tuple[bool, bool]] = []
+
+    def watch(program: Program, machine: Machine) -> None:
+        def trace(line: Line, session: Session) -> None:
+            # Statement 108 tests INSID before an inside point is punched.
+            if line.label == 108:
+                is_punched = any(event.text == "INSIDE POINTS" for event in session.devices.events)
+                tests.append((is_punched, [value for value, _ in session.held("INSID")] == [2]))
+
+        machine.tracer = trace if program.source == "program3.f" else None
+
+    for points in SETS[3].cases(cases):
+        run_hull(deck_with(points), programs.program, Options(limit=30_000), watch=watch)
+    after = [is_2 for is_punched, is_2 in tests if is_punched]
+    message = f"program 3 tests INSID before it punches each inside point; it is 2 {sum(after)} of {len(after)} times "
+    message += f"after the heading, and {sum(map(any, tests)) - len(after)} of {len(tests) - len(after)} times before"
+    return searched(SETS[3], cases, [after, *(a == b for a, b in tests)], message)
+
+
+# Words of the comment cards that name the steps; each stands on one comment card.
 _BOUNDARY = "BOUNDARY POINTS THAT"
 _STEPS = {
     "program2": ("INSIDE POINTS", "SUPPORTING LINES", f"{_BOUNDARY} ARE NOT", f"{_BOUNDARY} WERE", "MORE THAN ONE"),
@@ -296,8 +329,8 @@ _STEPS = {
 @claim("thesis.262", name="program3")
 def comments_of_steps(name: str) -> Check:
     comments = [card.text for card in programs.deck(name).cards if card.text.startswith("C")]
-    marked = [sum(words in comment for comment in comments) == 1 for words in _STEPS[name]]
-    return exhibited(all(marked), f"{len(marked)} steps of {name} are marked by comments")
+    named = [sum(words in comment for comment in comments) == 1 for words in _STEPS[name]]
+    return exhibited(all(named), f"{len(named)} steps of {name} are named by comments")
 
 
 def _translated(name: str) -> Program:
@@ -318,30 +351,32 @@ def storage_of_translation() -> Check:
 
 @claim("thesis.195")
 def sign_without_products() -> Check:
-    at_c = {"program2": "D(J)=A(J)*C1+B(J)*C2+C(J)", "program3": "E(I)=A(I)*C1+B(I)*C2+C(I)*C3+D(I)"}
+    # The value at C, and the test of the constant term, which is C in the plane and D in space.
+    lines = {
+        "program2": ("D(J)=A(J)*C1+B(J)*C2+C(J)", "IF(C(J))"),
+        "program3": ("E(I)=A(I)*C1+B(I)*C2+C(I)*C3+D(I)", "IF(D(I))"),
+    }
     texts = [
-        {n: programs.deck(n, layer.split()).text().replace(" ", "") for n in at_c} for layer in ("", "translation")
+        {n: programs.deck(n, layer.split()).text().replace(" ", "") for n in lines} for layer in ("", "translation")
     ]
-    versions = [[statement in text[name] for name, statement in at_c.items()] for text in texts]
-    return exhibited(versions == [[True] * 2, [False] * 2], "with the translation, no equation is evaluated at C")
+    versions = [[words in text[name] for name, pair in lines.items() for words in pair] for text in texts]
+    message = "with the translation, the sign is that of the constant term, not of the value at C"
+    return exhibited(versions == [[True, False] * 2, [False, True] * 2], message)
 
 
 @claim("thesis.196")
 def total_of_translation() -> Check:
     tetrahedron = [(0, 0, 0), (60, 0, 0), (0, 60, 0), (0, 0, 60)]
-    saved = []
-    for points in ([*tetrahedron, *((k, 1, 1) for k in range(1, 40))], [(k, k**2, k**3) for k in range(20)]):
-        hull = convex_hull(points, history=True)
-        # Moving N points takes 6 N sums, and each plane of H_1 and of the result three products and three sums. Each
-        # plane that a step makes saves three products and three sums.
-        products = 3 * (3 * sum(stage.outside for stage in hull.history) - len(tetrahedron) - len(hull.faces))
-        saved.append((products, products - 6 * len(points)))
-    many_points, many_planes = saved
-    message = "a curve saves {} products and {} sums; ".format(*many_planes)
-    message += "a tetrahedron with 39 inside points costs {} products and {} sums more".format(
-        *(-n for n in many_points)
-    )
-    return exhibited(max(many_points) < 0 < min(many_planes), message)
+    times, complete = [], []
+    for points in ([*tetrahedron, *((k, 1, 1) for k in range(1, 40))], [(k, k**2, k**3) for k in range(-4, 5)]):
+        runs = [run_hull(deck_with(points), load, Options(core=60_000)) for load in (programs.program, _translated)]
+        last = [run.steps[-1] for run in runs]
+        times.append([measure(step.program, step.result).processor_time.seconds for step in last])
+        complete += [run.complete for run in runs]
+    (inside, inside_moved), (curve, curve_moved) = times
+    message = f"program 3 takes about {curve:.0f} seconds for nine points of a curve, and {curve_moved:.0f} with the "
+    message += f"translation; for a tetrahedron with 39 inside points, {inside:.0f} and {inside_moved:.0f}"
+    return exhibited(all(complete) and inside < inside_moved and curve_moved < curve, message)
 
 
 @claim("thesis.192")

@@ -14,10 +14,14 @@ import pytest
 import modern.claims.kovalevsky_schulz.sizes as sizes
 import modern.claims.nakamae_nishita.tables as contours
 import modern.claims.thesis.chapter3_stages as stages
+from emulator.language.cards import deck_from_lines
+from emulator.language.compiler import compile_deck
+from emulator.language.objectcode import Program
 from modern.claims.algebra import IMPOSSIBLE, Proof, Step
 from modern.claims.evidence import Decision
 from modern.claims.register import decisions
 from modern.claims.sampled_sets import SampledSet, sampled_sets
+from modern.edition import programs
 from modern.geometry.hull import Hull
 from modern.papers.nakamae_nishita.contours import Tables
 from tests.modern.claims.spoilers import is_noticed, verdict
@@ -35,7 +39,7 @@ def _with_idle_stage(sampled: SampledSet) -> SampledSet:
     return replace(sampled, hull=replace(sampled.hull, history=(*history, replace(history[-1], added=()))))
 
 
-def _listing_with(old: str, new: str) -> Callable[[Any], object]:
+def _listing_with(old: str, new: str) -> Callable[[Any], Any]:
     """Replace a word on all cards of the listings."""
 
     def deck(original: Any, name: str, *layers: tuple[str, ...]) -> object:
@@ -43,6 +47,16 @@ def _listing_with(old: str, new: str) -> Callable[[Any], object]:
         return SimpleNamespace(cards=cards, text=lambda: "\n".join(card.text for card in cards))
 
     return lambda original: SimpleNamespace(deck=partial(deck, original), program=original.program)
+
+
+def _compiled_with(old: str, new: str) -> Callable[[Any], object]:
+    """Replace a word on all cards of the listings and compile them."""
+
+    def program(original: Any, name: str) -> Program:
+        text = _listing_with(old, new)(original).deck(name).text()
+        return compile_deck(deck_from_lines(f"{name}.f", text.split("\n")))
+
+    return lambda original: SimpleNamespace(program=partial(program, original))
 
 
 def _without_code(original: Any) -> object:
@@ -72,12 +86,12 @@ BY_HAND: dict[str, tuple[str, Callable[[Any], object]]] = {
     "thesis.169": ("programs", _without_code),
     "thesis.194": ("Machine", lambda _: lambda *arguments: None),
     "thesis.195": ("programs", _listing_with("*C1", "*C2")),
-    "thesis.196": ("convex_hull", lambda original: lambda points, **_: replace(original(points), history=())),
+    "thesis.196": ("_translated", lambda _: programs.program),
     "thesis.208": ("programs", _without_code),
     "thesis.242": ("_distance_squared", lambda _: lambda x, p, q: Fraction((3 * abs(x[0]) - 2 * x[1] + 5) ** 2, 13)),
     "thesis.261": ("programs", _listing_with("POINTS THAT ARE NOT VERTICES", "")),
     "thesis.262": ("programs", _listing_with("INSIDE PLANES", "PLANES")),
-    "thesis.263": ("programs", _listing_with("INSID=2", "INSID=1")),
+    "thesis.263": ("programs", _compiled_with("INSID=2", "INSID=1")),
     "thesis.269": ("sampled_sets", lambda original: lambda *size: [*map(_with_idle_stage, original(*size))]),
     "thesis.273": ("coordinate_planes", lambda _: _failing_proof),
     "yau-srihari.85": ("hull_of", lambda original: lambda solid: _edges_as_entered(original(solid))),
