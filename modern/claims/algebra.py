@@ -204,8 +204,9 @@ class Proof:
     argument: str
     steps: tuple[Step, ...]
 
-    def check(self) -> Check:
-        return proved(self.argument, (step.is_valid() for step in self.steps), self.theorem)
+    def check(self, conclusion: str = "") -> Check:
+        """Return the check of the theorem, or of a conclusion that the argument contains."""
+        return proved(self.argument, (step.is_valid() for step in self.steps), conclusion or self.theorem)
 
 
 def largest_value() -> Step:

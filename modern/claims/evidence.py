@@ -96,18 +96,18 @@ def proved(argument: str, steps: Iterable[object], message: str) -> Check:
     return _all("proved", argument, steps, message)
 
 
-def identity(difference: Callable[..., int], degrees: Sequence[int], message: str) -> Check:
+def identity(difference: Callable[..., int], degrees: Sequence[int], message: str, argument: str) -> Check:
     """Return the check of a polynomial identity; ``degrees`` has the degree of ``difference`` in each variable.
+
+    ``argument`` states why the message follows from the identity.
 
     ``difference`` computes one side of the identity minus the other.  A polynomial of degree d in a variable that is
     zero at d + 1 values of this variable is zero at all values.  So the difference is zero everywhere if it is zero on
     a grid with d + 1 values for each variable.
     """
     values = [difference(*point) == 0 for point in product(*(range(-(d // 2), d - d // 2 + 1) for d in degrees))]
-    argument = (
-        f"a polynomial in {len(degrees)} variables that is 0 on a grid with one value more than its degree in each"
-    )
-    return proved(argument, values, message)
+    grid = f"A polynomial in {len(degrees)} variables is 0 on a grid with one value more than its degree in each"
+    return proved(f"{argument} {grid}", values, message)
 
 
 def exhausted(domain: str, outcomes: Iterable[object], message: str) -> Check:

@@ -140,7 +140,8 @@ def formula_1() -> Check:
         return abs(computed + determinant) + abs(determinant + right * (x * x + y * y))
 
     argument = "The value at a point is its distance to the right of the line times the length of the segment."
-    return identity(difference, (2, 2, 2, 2, 1, 1), "formula (1) is positive exactly to the right of the line", argument)
+    message = "formula (1) is positive exactly to the right of the line"
+    return identity(difference, (2, 2, 2, 2, 1, 1), message, argument)
 
 
 @claim("nakamae-nishita.30", "nakamae-nishita.31", "nakamae-nishita.32", full=25)

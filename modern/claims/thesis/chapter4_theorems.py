@@ -137,7 +137,8 @@ def outside_of_two_lines() -> Check:
     _, second, third = _values(x, y)
     signs = {"order": positive(Y2 - Y1), "second": positive(second), "third": positive(third)}
     step = Step("x is negative", signs, positive(-x), (term("second"), term("third")), ("order",))
-    return proved("The values of lines 2 and 3 add up to (y_1 - y_2) x", [step.is_valid()], "x is negative")
+    argument = "The values of lines 2 and 3 add up to (y_1 - y_2) x"
+    return proved(argument, [step.is_valid()], "x is negative at a point outside both lines")
 
 
 @claim("thesis.244")
@@ -166,7 +167,7 @@ def outside_of_line_1() -> Check:
         certificate = (term("end other"), term("third first"))
         steps.append(Step("the point is beyond the corner", signs, positive(sign * x), certificate, ("area",)))
     argument = "A point outside both lines is beyond their corner, at which x is largest or smallest of all points"
-    return proved(argument, (step.is_valid() for step in steps), "no point is outside both lines")
+    return proved(argument, (step.is_valid() for step in steps), "no point is outside line 1 and another line")
 
 
 @claim("thesis.243")

@@ -23,15 +23,15 @@ from modern.claims.algebra import (
 )
 from modern.claims.evidence import Check, claim
 from modern.claims.sampled_sets import counterexample_points
+from modern.claims.thesis.chapter3_equations import plane_as_printed
 from modern.claims.thesis.proofs import theorem_4_3
 
 P, Q, X = point("p", 3), point("q", 3), point("x", 3)
 
 
 def _plane(p: Point, q: Point, r: Point) -> tuple[Polynomial, ...]:
-    """Return A, B, C and D of the plane through three points."""
-    normal = cross(minus(q, p), minus(r, p))
-    return (*normal, -dot(normal, p))
+    """Return A, B, C and D of the plane through three points as (3.4) prints them."""
+    return plane_as_printed(p, q, r)  # type: ignore[arg-type,return-value]
 
 
 def _with_0(p: Point, axis: int) -> Point:
@@ -42,12 +42,14 @@ def _all_zero(says: str, values: Iterable[Polynomial]) -> tuple[Step, ...]:
     return tuple(Step(says, {}, zero(value)) for value in values)
 
 
-def three_points() -> Proof:
+def equation_of_plane() -> Proof:
     *normal, d = _plane(P, Q, X)
+    product = minus(tuple(normal), cross(minus(Q, P), minus(X, P)))
     return Proof(
-        "three points lie in a plane",
-        "The equation of the vector product is 0 at the three points. If it is 0 everywhere, they are collinear.",
-        _all_zero("the equation is 0 at the point", [dot(normal, p) + d for p in (P, Q, X)]),
+        "(3.4) gives an equation of the plane through three points that are not collinear",
+        "The equation is 0 at the three points, and A, B and C are the components of the vector product of two sides. "
+        "They are all 0 only if the points are collinear, and then the points lie in many planes.",
+        _all_zero("the value is 0", [*(dot(normal, p) + d for p in (P, Q, X)), *product]),
     )
 
 
@@ -103,7 +105,7 @@ def equations_of_line() -> Proof:
     ]
     components = [printed[0] + product[0], printed[1] - product[1], printed[2] + product[2]]
     return Proof(
-        "the two equations hold exactly at the points of the line",
+        "two of (3.1) to (3.3) hold exactly on the line if both contain a coordinate in which the points differ",
         "A point x is on the line of p and q exactly if the vector product of q - p and x - p is 0. Each printed "
         "equation says that one component of this product is 0. The two chosen equations contain the coordinate in "
         "which p and q differ, and if two such components are 0, the third is 0 too.",
@@ -184,18 +186,21 @@ def other_letters() -> Proof:
     )
 
 
-@claim("thesis.108", proof=three_points)
+@claim("thesis.51", proof=equation_of_plane)
+@claim("thesis.108", proof=equation_of_plane, conclusion="three points lie in a plane")
 @claim("thesis.270", proof=one_or_two_points)
 @claim("thesis.42", "thesis.44", "thesis.45", "thesis.47", proof=equations_of_line)
 @claim("thesis.46", proof=different_z)
 @claim("thesis.126", "thesis.277", proof=coordinate_planes)
-@claim("thesis.55", "thesis.56", "thesis.126", "thesis.237", proof=perpendicular_projection)
+@claim("thesis.55", "thesis.126", proof=perpendicular_projection)
+@claim("thesis.56", proof=perpendicular_projection, conclusion="the rule omits a coordinate with a nonzero coefficient")
+@claim("thesis.237", proof=perpendicular_projection, conclusion="C_0 is 0 only if the planes are perpendicular")
 @claim("thesis.127", "thesis.198", proof=projection_along_axis)
 @claim("thesis.139", proof=coordinates_of_figure_3)
 @claim("thesis.128", proof=coefficient_c_0)
 @claim("thesis.130", proof=other_letters)
-def proof_of_identity(proof: Callable[[], Proof]) -> Check:
-    return proof().check()
+def proof_of_identity(proof: Callable[[], Proof], conclusion: str = "") -> Check:
+    return proof().check(conclusion)
 
 
 @claim("thesis.129")

@@ -256,10 +256,10 @@ def theorem_4_7() -> Proof:
         "Every vertex of an H_j has the largest value of a linear function on the set: the first two are extremes, "
         "and the others have the largest value of a line. So no vertex is inside a triangle of points of the set. Let "
         "h be outside the lines c a and a b that meet at a: then a is inside the triangle c b h. Let h be outside a b "
-        "and c d, which do not meet. If b, c, d or a, b, c are collinear, the lines a b and b d, or a c and c d, are "
-        "the same lines and meet. Otherwise let the boundary turn by less than 180 degrees between them, or exchange "
-        "the two lines: then h is outside b c as well, and b is inside a triangle. If they are parallel, h cannot be "
-        "outside both. If two edges are on one line, the middle one of their ends is between the others, and its "
+        "and c d, which do not meet, and let the boundary turn by at most 180 degrees between them, or exchange the "
+        "two lines. If b, c, d or a, b, c are collinear, the lines a b and b d, or a c and c d, are the same lines and "
+        "meet. Otherwise h is outside b c as well, and b is inside a triangle, or, if the lines are parallel, h cannot "
+        "be outside both. If two edges are on one line, the middle one of their ends is between the others, and its "
         "linear function is a multiple of the line; then h and a vertex v on the other side cannot both have smaller "
         "values.",
         (
@@ -314,9 +314,10 @@ def theorem_4_5() -> Proof:
         "the points that satisfy all lines of H_j are the convex combinations of its vertices",
         "Combinations satisfy the inequalities that their points satisfy. For H_1, a triangle, and for the triangle "
         "a b p added to H_k, a point has the weights [p, b, x], [a, p, x] and -[a, b, x] with the sum -[a, b, p]. They "
-        "are not negative in the triangle. By theorem 4.7 p is outside a b alone, and c a b and a b d are not "
-        "collinear, so all vertices v of H_k satisfy the new lines a p and p b. Hence H_k+1 contains all combinations. "
-        "A point of H_k+1 satisfies a b, and then it is in H_k, or it does not, and then it is in the triangle.",
+        "are not negative in the triangle. By theorem 4.7 for H_k, p is outside a b alone, so that the edges c a and "
+        "b d are not on the line a b, and all vertices v of H_k satisfy the new lines a p and p b. Hence H_k+1 "
+        "contains all combinations. A point of H_k+1 satisfies a b, and then it is in H_k, or it does not, and then it "
+        "is in the triangle.",
         (
             *combination_satisfies(),
             *(
@@ -362,10 +363,15 @@ def theorem_4_5() -> Proof:
 @claim("thesis.121", proof=direction_cosines)
 @claim("thesis.122", proof=squared_distance)
 @claim("thesis.124", proof=positive_square)
-@claim("thesis.125", "thesis.197", "thesis.236", "thesis.237", proof=theorem_4_4)
-@claim("thesis.74", "thesis.131", "thesis.132", "thesis.133", "thesis.238", "thesis.240", proof=theorem_4_5)
-@claim("thesis.241", "thesis.257", "thesis.258", proof=theorem_4_5)
-@claim("thesis.71", "thesis.135", "thesis.136", proof=theorem_4_6)
+@claim("thesis.125", "thesis.197", "thesis.236", proof=theorem_4_4)
+@claim("thesis.237", proof=theorem_4_4, conclusion="if C_0 is not 0, points with equal x and y have equal z")
+@claim("thesis.74", "thesis.131", "thesis.257", "thesis.258", proof=theorem_4_5)
+@claim("thesis.132", proof=theorem_4_5, conclusion="convex combinations of the vertices satisfy all lines")
+@claim("thesis.133", proof=theorem_4_5, conclusion="a triangle consists of the convex combinations of its corners")
+@claim("thesis.238", proof=theorem_4_5, conclusion="the vertices of H_j satisfy all lines of H_j")
+@claim("thesis.240", "thesis.241", proof=theorem_4_5, conclusion="H_k+1 consists of H_k and the triangle a b p")
+@claim("thesis.71", "thesis.135", proof=theorem_4_6)
+@claim("thesis.136", proof=theorem_4_6, conclusion="d^2 (A^2 + B^2) is the square of A x + B y + C for the distance d")
 @claim("thesis.137", "thesis.145", "thesis.259", "thesis.278", proof=theorem_4_7)
-def proof_of_theorem(proof: Callable[[], Proof]) -> Check:
-    return proof().check()
+def proof_of_theorem(proof: Callable[[], Proof], conclusion: str = "") -> Check:
+    return proof().check(conclusion)
