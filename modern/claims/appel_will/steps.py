@@ -87,7 +87,8 @@ def opposite_images(cases: int = 10) -> Check:
         opposite = (*images[:3], (-images[0][0], -images[0][1]))
         return holds_origin(opposite) and not any(as_corrected([*order]) for order in permutations(opposite))
 
-    return search(IMAGES, is_inside, cases, "C is in the hull of three images and one opposite, in any order")
+    message = "C is in the hull of three images and one opposite to the first, and the test finds this in any order"
+    return search(IMAGES, is_inside, cases, message)
 
 
 @claim("appel-will.111")

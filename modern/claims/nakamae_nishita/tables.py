@@ -232,7 +232,7 @@ def crosses(a: Place, b: Place, c: Place, d: Place) -> bool:
 @claim("nakamae-nishita.26", number="4", full=25)
 @claim("nakamae-nishita.27", number="LP", full=25)
 def table_properties(number: str, cases: int = CASES) -> Check:
-    checks, touching = [], False
+    checks, met_premises, touching = [], 0, False
     for v, w in pairs(cases):
         pl, lp = tables_of(v, w)
         d = tables_by_2(v, w).crossing_number
@@ -240,32 +240,38 @@ def table_properties(number: str, cases: int = CASES) -> Check:
         of_pl, of_lp = (v, w, [*zip(*pl, strict=True)], met), (w, v, lp, [*zip(*met, strict=True)])
         # ``LP`` is about all four properties of the table LP.
         for property_number in "1234" if number == "LP" else number:
-            property_checks, touches = _property(property_number, *(of_lp if number == "LP" else of_pl))
-            checks += property_checks
+            found, touches = _property(property_number, *(of_lp if number == "LP" else of_pl))
+            # The converse is true for properties 2 and 4.
+            converse = property_number in "24"
+            checks += [right == premise if converse else right or not premise for premise, right in found]
+            met_premises += sum(premise for premise, _ in found)
             touching |= touches
     units = {"3": "segments without -1", "4": "vertices", "LP": "cases of the four properties"}
-    check = searched(POLYGONS, 2 * cases, checks, f"true for {len(checks)} {units.get(number, 'pairs of contours')}")
+    unit = units.get(number, "pairs of contours")
+    check = searched(
+        POLYGONS, 2 * cases, checks, f"true for the {met_premises} of {len(checks)} {unit} that meet the premise"
+    )
     return check.unless(touching, "a side without -1 that touches the other polygon, where d is -2 or -1")
 
 
 def _property(
     number: str, v: tuple[Place, ...], w: tuple[Place, ...], of_lines: Rows, met: Rows
-) -> tuple[list[bool], bool]:
-    """Return True or False for each case of a property of the tables, and True if a line without -1 touches w.
+) -> tuple[list[tuple[bool, bool]], bool]:
+    """Return the premise and the conclusion of a property for each case, and True if a line without -1 touches w.
 
     Property 3 says that a line of v does not cross w if no vertex of w has the sign -1; such a line may still touch w.
     ``of_lines`` has, for each line of v, the signs of the vertices of w. ``met`` has the values of d, formula (3), for
     each line of v and each line of w.
     """
     if number == "1":
-        return [all(1 in line for line in of_lines) or not overlap(v, w)], False
+        return [(any(1 not in line for line in of_lines), not overlap(v, w))], False
     if number == "2":
-        return [(not any(-1 in line for line in of_lines)) == all(inside(p, v) for p in w)], False
+        return [(not any(-1 in line for line in of_lines), all(inside(p, v) for p in w))], False
     if number == "4":
-        return [(-1 not in at) == inside(p, v) for at, p in zip(zip(*of_lines, strict=True), w, strict=True)], False
+        return [(-1 not in at, inside(p, v)) for at, p in zip(zip(*of_lines, strict=True), w, strict=True)], False
     clear = [i for i, line in enumerate(of_lines) if -1 not in line]
     crossed = [any(crosses(*side_of_v, *side_of_w) for side_of_w in sides(w)) for side_of_v in sides(v)]
-    return [not crossed[i] for i in clear], any(any(met[i]) for i in clear)
+    return [(True, not crossed[i]) for i in clear], any(any(met[i]) for i in clear)
 
 
 @claim("nakamae-nishita.41", full=25)
