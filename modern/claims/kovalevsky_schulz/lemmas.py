@@ -8,7 +8,7 @@ from random import Random
 from modern.claims.evidence import Check, Generator, claim, refuted, search, searched
 from modern.claims.hulls import exact_hull
 from modern.claims.kovalevsky_schulz.polyhedra import OUTSIDE, growing_polyhedra, horizon, hulls, polyhedron
-from modern.claims.kovalevsky_schulz.proofs import formula_4, lemma_be, lemma_ch, lemma_lz
+from modern.claims.kovalevsky_schulz.proofs import has_zero_coefficient, lemma_be, lemma_ch, lemma_lz
 from modern.claims.kovalevsky_schulz.voxels import KINDS, SOLIDS, Voxels, local, points_of
 from modern.claims.sampled_sets import (
     CASES,
@@ -61,7 +61,7 @@ def proof_of_the_algorithm(cases: int = CASES) -> Check:
     message = f"{sum(lemmas)} lemmas are proved; {construction.message}"
     check = searched(SETS[3], cases, [*lemmas, construction.holds], message)
     case = f"the printed proof, in which {len(false)} statements are false and no face is coplanar with the new point"
-    return check.unless(not any(statement.holds for statement in false) and formula_4().evidence.violation, case)
+    return check.unless(not any(statement.holds for statement in false) and has_zero_coefficient(), case)
 
 
 def _planes_at(edge: tuple[int, int], judge: ExactHull, new: Point) -> list[Plane]:
