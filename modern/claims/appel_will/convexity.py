@@ -161,14 +161,14 @@ def _simple(ring: Sequence[Flat]) -> bool:
 def start_of_jarvis(cases: int = CASES) -> Check:
     checks = []
     for sampled in sampled_sets(2, cases):
-        below = (0, min(y for _, y, _ in sampled.points) - 1)
-        checks.append(_smallest_angle(below, sampled.points) not in sampled.judge.inside)
-    message = f"the point with the smallest angle about an origin below each of {len(checks)} sets is on the hull"
+        origins = (0, -6), (0, 6), (6, 0)
+        checks += [_smallest_angle(origin, sampled.points) not in sampled.judge.inside for origin in origins]
+    message = f"from {len(checks)} origins below, above or to the right, the point with the least angle is on the hull"
     check = searched(SETS[2], cases, checks, message)
     origin, *points = counterexample_points("jarvis.csv")
     first = _smallest_angle(origin[:2], points)
     is_inside = first in exact_hull(points).inside and 0 in exact_hull([origin, *points]).vertices
-    is_beside = origin[1] >= min(y for _, y, _ in points)
+    is_beside = min(y for _, y, _ in points) <= origin[1] <= max(y for _, y, _ in points)
     return check.unless(
         is_inside and is_beside, f"the origin {origin[:2]}, from which {points[first][:2]} inside the hull is first"
     )
@@ -245,7 +245,7 @@ def holds_origin(images: Iterable[Flat]) -> bool:
     return len(flat) not in exact_hull([*flat, (0, 0, 0)]).vertices
 
 
-@claim("appel-will.40", "appel-will.47", "appel-will.93", full=200)
+@claim("appel-will.40", "appel-will.47", "appel-will.48", "appel-will.93", full=200)
 def edge_by_star_test(cases: int = 1) -> Check:
     checks = []
     for sampled in sampled_sets(3, cases):
@@ -261,7 +261,7 @@ def edge_by_star_test(cases: int = 1) -> Check:
     return searched(SETS[3], cases, checks, message)
 
 
-@claim("appel-will.48", "yau-srihari.12", full=200)
+@claim("yau-srihari.12", full=200)
 def edge_by_image(cases: int = 1) -> Check:
     points = [(0, 0, 0), (2, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4)]
     pair = (0, 2)
