@@ -107,12 +107,10 @@ def algorithm_as_printed(name: str) -> Check:
 def minimum_not_unique() -> Check:
     outcomes = []
     # By definition 3.2.2, and by Kim and Rosenfeld's test (3.2.3)
-    for is_convex, end, others in (
-        (is_midpoint_convex, (2, 1, 0), ((1, 0, 0), (1, 1, 0))),
-        (is_digitally_convex, (1, 1, 0), ((1, 0, 0), (0, 1, 0))),
-    ):
+    cases = ((is_midpoint_convex, (2, 1, 0), (1, 1, 0)), (is_digitally_convex, (1, 1, 0), (0, 1, 0)))
+    for is_convex, end, other in cases:
         both: list[Point] = [(0, 0, 0), end]
-        outcomes += [not is_convex(array_of(both)), *(is_convex(array_of([*both, other])) for other in others)]
+        outcomes += [not is_convex(array_of(both)), *(is_convex(array_of([*both, p])) for p in ((1, 0, 0), other))]
     message = "by 3.2.2 and the test of 3.2.3, some two voxels are not convex, but either of two others makes them so"
     return exhibited(all(outcomes), message)
 
@@ -267,10 +265,8 @@ def another_vertex() -> Check:
     # The construction finds each face on an edge of another face.
     another = [{*step.edge} < {*step.face.vertices} and step.face.normal[2] < 0 for step in lower.steps if step.face]
     message = f"the normals of {len(reversed_)} reversed faces point up, unlike those of faces of the envelope"
-    correction = "v3, v2 and another vertex"
-    return slip(
-        all(n[2] < 0 for n in reversed_), len(another) == len(lower.faces) and all(another), correction, message
-    )
+    right = len(another) == len(lower.faces) and all(another)
+    return slip(all(n[2] < 0 for n in reversed_), right, "v3, v2 and another vertex", message)
 
 
 @claim("yau-srihari.90")
