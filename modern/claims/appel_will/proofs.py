@@ -119,7 +119,7 @@ def fewer_pairs() -> Proof:
     squares = (term("", 3 * m), term("", m), term("", m), term("", m), term("", 5), term("", 2), term(""))
     terms = (term("m m m"), term("m", 6), term("m", 2), term("m"), *squares)
     return Proof(
-        "there are fewer pairs than triples",
+        "six or more points have fewer pairs than triples",
         "Six times the number of triples minus that of pairs is n (n - 1) (n - 5), where n = 6 + m.",
         (Step("the difference is positive", {"m": not_negative(m)}, positive(difference), terms),),
     )
@@ -127,8 +127,7 @@ def fewer_pairs() -> Proof:
 
 def points_of_hull() -> Proof:
     return Proof(
-        "a combination of points is on the inner side of every plane that has all these points on this side, so that "
-        "it can be added to the points without a change of the hull",
+        "a convex combination of points is on the inner side of every plane that has all these points on this side",
         "The points of the hull are the combinations of the vertices, and all vertices are on the inner side of each "
         "plane. So the object determines its hull, and the hull stays the same if any of the infinitely many points "
         "inside it is added to the object, for example as the apex of a pit.",
@@ -138,7 +137,7 @@ def points_of_hull() -> Proof:
 
 def projections() -> Proof:
     return Proof(
-        "the image of a combination is the same combination of the images",
+        "the image of the hull of points is the hull of their images",
         "The coordinates of an image are linear functions of the point. The images of all combinations of the vertices "
         "are therefore all combinations of the images of the vertices, which form a convex polygon.",
         combination_satisfies()[:1],
@@ -198,7 +197,7 @@ def inside_corner() -> Proof:
 
 def outside_corners() -> Proof:
     return Proof(
-        "a vertex of the hull is on at least three outside corners",
+        "a vertex of the hull is on at least three outside corners, and so no point on only one is such a vertex",
         "Some plane touches the object only at the vertex. Cut the object near it by a parallel plane. The hull "
         "of the section has at least three corners. By the step, the section is not concave at a corner of its hull, "
         "so that the line from the vertex to this corner is an outside corner of the object.",
@@ -218,7 +217,8 @@ def concave_point() -> Proof:
     )
 
 
-@claim("appel-will.27", "appel-will.79", proof=points_of_hull)
+@claim("appel-will.27", proof=points_of_hull)
+@claim("appel-will.79", proof=points_of_hull, conclusion="the hull stays the same if points inside it are added")
 @claim("appel-will.31", proof=projections)
 @claim("appel-will.38", proof=fewer_pairs)
 @claim("appel-will.72", proof=three_planes)
@@ -230,5 +230,5 @@ def concave_point() -> Proof:
 @claim("appel-will.52", "thesis.214", proof=inside_triangle)
 @claim("nakamae-nishita.34", proof=equal_images)
 @claim("appel-will.81", "appel-will.82", "appel-will.139", proof=lines_and_planes)
-def proof_of_equation(proof: Callable[[], Proof]) -> Check:
-    return proof().check()
+def proof_of_equation(proof: Callable[[], Proof], conclusion: str = "") -> Check:
+    return proof().check(conclusion)

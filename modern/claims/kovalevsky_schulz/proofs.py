@@ -75,13 +75,15 @@ def lemma_ch() -> Proof:
     )
 
 
-def vertex_is_no_combination() -> Proof:
+def no_combination() -> Proof:
     return Proof(
         "a point of a convex polyhedron is a vertex if and only if it is a combination of no other points of it",
         "A vertex is the only point with the largest value of some linear function, so that a combination of other "
-        "points has a smaller value. So a polyhedron whose vertices are other points of the old one does not "
-        "contain the vertex. By Minkowski's theorem every point is a combination of vertices. So a convex polyhedron "
-        "that contains all vertices contains the whole polyhedron, and a smaller one does not contain all vertices.",
+        "points has a smaller value. So no point between two others is a vertex, and no vertex of the hull of any "
+        "polyhedron is inside the polyhedron, a face or an edge. A polyhedron whose vertices are other points of the "
+        "old one does not contain the vertex. By Minkowski's theorem every point is a combination of vertices. So a "
+        "convex polyhedron that contains all vertices contains the whole polyhedron, and a smaller one does not "
+        "contain all vertices.",
         (largest_value(), *combination_satisfies()),
     )
 
@@ -93,7 +95,8 @@ def choice_of_q() -> Proof:
     return Proof(
         "the scalar product of a face's normal with the way to P is the same from all points Q of the face",
         "The normal is perpendicular to the way from one point of the face to another. So the sign of its product with "
-        "the way to P, which tells acute from obtuse angles, is the same for all of them.",
+        "the way to P is the same for all of them. By definition VI it is positive for a visible face, which is an "
+        "acute angle, and negative for an invisible one, which is an obtuse angle.",
         (Step(says, {"face": in_face}, difference, (term("face", -1),)),),
     )
 
@@ -168,14 +171,19 @@ def has_zero_coefficient() -> bool:
 @claim("kovalevsky-schulz.68", proof=last_of_three_choices)
 @claim("kovalevsky-schulz.124", proof=largest_combination)
 @claim("kovalevsky-schulz.69", proof=lemma_ch)
-@claim("kovalevsky-schulz.14", "kovalevsky-schulz.16", "kovalevsky-schulz.17", proof=vertex_is_no_combination)
-@claim("kovalevsky-schulz.121", "kovalevsky-schulz.167", proof=vertex_is_no_combination)
-@claim("appel-will.16", "appel-will.19", "appel-will.41", "appel-will.133", proof=vertex_is_no_combination)
-@claim("kovalevsky-schulz.49", "kovalevsky-schulz.173", proof=choice_of_q)
+@claim("kovalevsky-schulz.14", "kovalevsky-schulz.16", "kovalevsky-schulz.17", proof=no_combination)
+@claim("kovalevsky-schulz.121", proof=no_combination, conclusion="a smaller polyhedron does not contain all vertices")
+@claim("kovalevsky-schulz.167", proof=no_combination, conclusion="the vertex is no combination of other points")
+@claim("appel-will.16", proof=no_combination, conclusion="a combination of listed points is no new vertex")
+@claim("appel-will.19", proof=no_combination, conclusion="all vertices of the hull are vertices of the polyhedron")
+@claim("appel-will.41", "appel-will.133", proof=no_combination, conclusion="a point between two others is no vertex")
+@claim("kovalevsky-schulz.49", proof=choice_of_q)
+@claim("kovalevsky-schulz.173", proof=choice_of_q, conclusion="visible faces make acute angles, invisible ones obtuse")
 @claim("kovalevsky-schulz.95", proof=symmetry)
-@claim("kovalevsky-schulz.71", "kovalevsky-schulz.168", proof=lemma_be)
-def proof_of_lemma(proof: Callable[[], Proof]) -> Check:
-    return proof().check()
+@claim("kovalevsky-schulz.71", proof=lemma_be)
+@claim("kovalevsky-schulz.168", proof=lemma_be, conclusion="the product with the new normal is not positive")
+def proof_of_lemma(proof: Callable[[], Proof], conclusion: str = "") -> Check:
+    return proof().check(conclusion)
 
 
 @claim("kovalevsky-schulz.146", "yau-srihari.17")

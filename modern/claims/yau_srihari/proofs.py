@@ -104,8 +104,8 @@ def theorem_1() -> Proof:
         "A point of the hull is a combination of points of S. Each of these is on or above the floor, so that the "
         "combination is on or above the same combination of floor points, and the envelope is the smallest of these. "
         "The ceiling is treated in the same way with the opposite sign. Conversely, the envelopes are attained by "
-        "combinations of points of S, since S is finite, and so both of their points over X are in the hull. A point "
-        "over X between them is a combination of these two with the weights high - z and z - low.",
+        "combinations of points of S, since S is finite, and so both of their points over X are in the hull. If they "
+        "differ, a point over X between them is a combination of them with the weights high - z and z - low.",
         (
             combination_above(),
             Step("a point between the envelopes is a combination of their points", {}, between),
@@ -189,7 +189,8 @@ def angle_of_theorem_2() -> Check:
     return theorem_2().check().misprinted(not as_printed.holds, "psi as the interior dihedral angle of p and q")
 
 
-@claim("yau-srihari.40", "yau-srihari.41", proof=hull_is_convex)
+@claim("yau-srihari.40", proof=hull_is_convex)
+@claim("yau-srihari.41", proof=hull_is_convex, conclusion="a set that consists of all its combinations is convex")
 @claim("yau-srihari.44", proof=negative_is_concave)
 @claim("yau-srihari.117", "yau-srihari.118", proof=segment_of_graph)
 @claim("yau-srihari.47", "yau-srihari.96", proof=convex_epigraph)
@@ -197,5 +198,5 @@ def angle_of_theorem_2() -> Check:
 @claim("yau-srihari.84", proof=normal_of_starting_face)
 @claim("yau-srihari.113", proof=number_of_pairs)
 @claim("yau-srihari.101", proof=third_corner)
-def proof_of_theorem(proof: Callable[[], Proof]) -> Check:
-    return proof().check()
+def proof_of_theorem(proof: Callable[[], Proof], conclusion: str = "") -> Check:
+    return proof().check(conclusion)
