@@ -44,6 +44,8 @@ from modern.thesis.job import COPLANAR, HullRun, run_hull
 
 MOST_POINTS = 51
 
+# The number of points of each example of chapter 6, and their dimension.
+_EXAMPLES = {1: (3, 2), 2: (9, 1), 3: (1, 0), 4: (8, 2), 5: (15, 3), 6: (10, 3)}
 # Five points that are not coplanar.
 _SPACE = ((1, 2, 3), (2, 1, 5), (4, 4, 1), (3, 9, 2), (7, 1, 1))
 # Four points that are not coplanar, but are in eight digits.
@@ -186,10 +188,6 @@ def lines_of_added_points(cases: int = CASES) -> Check:
     return check.unless(table.evidence.violation, table.evidence.violation)
 
 
-# The number of points of each example of chapter 6, and their dimension.
-_EXAMPLES = {1: (3, 2), 2: (9, 1), 3: (1, 0), 4: (8, 2), 5: (15, 3), 6: (10, 3)}
-
-
 @claim("thesis.172", examples=(1,))
 @claim("thesis.173", examples=(2,))
 @claim("thesis.174", examples=(3,))
@@ -259,10 +257,7 @@ def first_card() -> Check:
     passed = all(
         len(first) == 2 and len(others) == int(first) and {*map(len, others)} == {3 * 14} for first, *others in decks
     )
-    message = (
-        f"the {len(decks)} printed decks have N and then N cards with three numbers of 14 characters; the columns "
-    )
-    message += "1-2 and 1-42 follow from the FORMATs"
+    message = f"the {len(decks)} printed decks have N, then N cards with 3 x 14 characters; FORMATs give the columns"
     return exhibited(passed and all(words in listing for words in read), message)
 
 
@@ -312,8 +307,10 @@ def inside_heading(cases: int = CASES) -> Check:
     for points in SETS[3].cases(cases):
         run_hull(deck_with(points), programs.program, Options(limit=30_000), watch=watch)
     after = [is_2 for is_punched, is_2 in tests if is_punched]
-    message = f"program 3 tests INSID before it punches each inside point; it is 2 {sum(after)} of {len(after)} times "
-    message += f"after the heading, and {sum(map(any, tests)) - len(after)} of {len(tests) - len(after)} times before"
+    message = (
+        f"program 3 tests INSID before each inside point: after the heading, it is 2 at {sum(after)} of {len(after)} "
+    )
+    message += f"tests, and before the heading at {sum(map(any, tests)) - len(after)} of {len(tests) - len(after)}"
     return searched(SETS[3], cases, [after, *(a == b for a, b in tests)], message)
 
 
@@ -356,9 +353,8 @@ def sign_without_products() -> Check:
         "program2": ("D(J)=A(J)*C1+B(J)*C2+C(J)", "IF(C(J))"),
         "program3": ("E(I)=A(I)*C1+B(I)*C2+C(I)*C3+D(I)", "IF(D(I))"),
     }
-    texts = [
-        {n: programs.deck(n, layer.split()).text().replace(" ", "") for n in lines} for layer in ("", "translation")
-    ]
+    decks = [{name: programs.deck(name, layers) for name in lines} for layers in ((), ("translation",))]
+    texts = [{name: deck.text().replace(" ", "") for name, deck in version.items()} for version in decks]
     versions = [[words in text[name] for name, pair in lines.items() for words in pair] for text in texts]
     message = "with the translation, the sign is that of the constant term, not of the value at C"
     return exhibited(versions == [[True, False] * 2, [False, True] * 2], message)
