@@ -10,7 +10,7 @@ from modern.claims.appel_will.proofs import least_surface
 from modern.claims.evidence import Check, claim, exhibited, refuted, search, slip
 from modern.claims.hulls import exact_hull
 from modern.claims.invariants import corrected_print, is_sphere, numbers_in
-from modern.claims.kovalevsky_schulz.proofs import vertex_is_no_combination
+from modern.claims.kovalevsky_schulz.proofs import no_combination
 from modern.claims.published import PAPERS, findings, results_of
 from modern.claims.sampled_sets import Plane, Point, counterexample, counterexample_points, plane_value
 from modern.formats.off import parse_off
@@ -200,7 +200,7 @@ def hulls_of_surfaces() -> Check:
     message = "the apex of a pit is a vertex of the hulls of its surfaces, but not of the hull"
     check = exhibited(own and apex not in vertices, message)
     case = "the proved relation that a vertex of the object's hull is a vertex of the hull of each of its surfaces"
-    return check.unless(vertex_is_no_combination().check().holds, case)
+    return check.unless(no_combination().check().holds, case)
 
 
 @claim("appel-will.91", "appel-will.138", "appel-will.76")
