@@ -1,5 +1,6 @@
 """Checks of Yau and Srihari: theorems 1 and 2, the printed algorithm, and envelopes (lower and upper hull surfaces)."""
 
+from collections.abc import Iterable
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
@@ -25,7 +26,13 @@ from modern.digital.solids import listed
 from modern.geometry.mesh import sides
 from modern.geometry.vectors import dot
 from modern.papers.yau_srihari import OctreeHull, Printed
-from modern.papers.yau_srihari.convexity import convex_deficiency, is_digitally_convex, is_midpoint_convex, is_simple
+from modern.papers.yau_srihari.convexity import (
+    convex_deficiency,
+    half_cell_expansion,
+    is_digitally_convex,
+    is_midpoint_convex,
+    is_simple,
+)
 from modern.papers.yau_srihari.hull import components
 from modern.papers.yau_srihari.octree import count, voxels_of
 from modern.papers.yau_srihari.quadtree import Leaf, graph_side, no_columns, written
@@ -175,6 +182,29 @@ def smallest_convex_solid() -> Check:
     message = f"the hull of {hull.solid_voxels} connected voxels has {hull.voxels} digital points and is convex"
     case = f"a path of six voxels, which each of {len(completions)} other voxels makes convex"
     return exhibited(passed, message).unless(path_fails and len(completions) > 1, case)
+
+
+@claim("yau-srihari.30", "yau-srihari.33")
+def convex_solid_fails_test() -> Check:
+    """Check that a simple solid that fails the test of convexity is convex by definition 3.2.3.
+
+    The half-cell expansion of the solid consists of cells [a, a + 1] with integers a.  Let Q be the hull of cubes of
+    side 1/4 around the solid's points.  It meets each of these cells, because a corner of a cube is inside.  It meets
+    another cell, open or closed, only if a is in the hull of the points of Q, each moved by -1 or 0 along each axis.
+    """
+    solid = counterexample_points("yau_near.csv")
+    cells = {(x - 1, y - 1, z - 1) for x, y, z in np.argwhere(half_cell_expansion(array_of(solid))).tolist()}
+    hull = exact_hull(tuple(_moved(solid, (-9, 1), 8)))
+    neighbours = _moved(cells, (-1, 0, 1))
+    met = {a for a in neighbours if all(8 * hull.scale * dot(f.plane[:3], a) + f.plane[3] <= 0 for f in hull.facets)}
+    fails_test = is_simple(array_of(solid)) and not is_digitally_convex(array_of(solid))
+    message = f"{len(solid)} voxels fail the test, but their half-cell expansion is the image of a convex solid"
+    return refuted(fails_test and met == cells, message)
+
+
+def _moved(points: Iterable[Point], steps: tuple[int, ...], scale: int = 1) -> set[Point]:
+    """Return scaled points, moved by one of the steps along each axis."""
+    return {(scale * x + i, scale * y + j, scale * z + k) for x, y, z in points for i, j, k in product(steps, repeat=3)}
 
 
 @claim("yau-srihari.50")
