@@ -307,9 +307,7 @@ def inside_heading(cases: int = CASES) -> Check:
     for points in SETS[3].cases(cases):
         run_hull(deck_with(points), programs.program, Options(limit=30_000), watch=watch)
     after = [is_2 for is_punched, is_2 in tests if is_punched]
-    message = (
-        f"program 3 tests INSID before each inside point: after the heading, it is 2 at {sum(after)} of {len(after)} "
-    )
+    message = f"program 3 tests INSID for each inside point: after the heading it is 2 at {sum(after)} of {len(after)} "
     message += f"tests, and before the heading at {sum(map(any, tests)) - len(after)} of {len(tests) - len(after)}"
     return searched(SETS[3], cases, [after, *(a == b for a, b in tests)], message)
 
