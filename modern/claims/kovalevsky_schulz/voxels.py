@@ -140,6 +140,7 @@ def printed_faces() -> Check:
         f"{len(fewer)} corners": _triangles(fewer),
         "a ball centred on a corner of voxels": _triangles(moved),
         "a ball without its sphere": _triangles(inner),
+        "the voxels' centres": _triangles(local_corners(ball(32), CENTRES, 6).tolist()),
     }
     case = "; ".join(f"{change}: {number} triangles" for change, number in others.items())
     check = exhibited(numbers == numbers_of_ball()[3:], f"{numbers[0]} triangles and {numbers[1]} faces")
