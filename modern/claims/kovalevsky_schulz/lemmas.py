@@ -36,7 +36,10 @@ def smaller_polyhedron(vertices: str) -> Check:
     wrong = smaller.vertices == (0, 1, 2, 3) and max(within) == min(within) == 0 and lower not in corners
     message = "all vertices of the smaller tetrahedron are on the boundary of the larger one"
     if vertices == "moved":
-        return refuted(wrong, f"{message}, and {lower} is not a vertex of the larger one")
+        middles = [[a + b for a, b in zip(p, q, strict=True)] for p, q in combinations(corners, 2)]
+        wrong = wrong and len(exact_hull(middles).vertices) == 6
+        message += f", and {lower} is not a vertex of the larger one; the midpoints of its edges form an octahedron"
+        return refuted(wrong, message)
     four = [p for p in product((0, 1), repeat=3) if sum(p) % 2 == 0]
     wrong = wrong and exact_hull(four).dimension == 3
     return refuted(wrong, f"{message}; four alternate corners of a cube form such a smaller tetrahedron, too")
@@ -149,4 +152,4 @@ def coefficients_by_cosines() -> Check:
     way = minus(new, body[1])
     one_face_visible = dot(visible, way) > 0 > dot(hidden, way)
     message = f"(a : b)^2 is {ratio}, (cos beta_v : cos beta_n)^2 is {cosines}, (sin beta_n : sin beta_v)^2 is {sines}"
-    return refuted(one_face_visible and a > 0 < b and ratio == sines != cosines, message)
+    return refuted(one_face_visible and a > 0 < b and ratio == sines and ratio not in (cosines, 1 / cosines), message)

@@ -147,13 +147,14 @@ def corrected_step(names: str, cases: int = 2) -> Check:
 @claim("yau-srihari.36")
 def disconnected_hull() -> Check:
     stairs = counterexample_points("yau_stairs.csv")
-    hull = octree_hull(array_of(stairs))
+    planes = [facet.plane for facet in exact_hull(stairs).facets]
     (x, y, z), (u, v, w) = stairs[0], stairs[-1]
     middle = ((x + u) // 2, (y + v) // 2, (z + w) // 2)
-    inside = [(i, j, k) for i, j, k in np.argwhere(hull.filled).tolist()]
+    lattice = [(i, j, k) for i, j, k in product(range(5), repeat=3)]
+    inside = [p for p in lattice if all(plane_value(plane, p) <= 0 for plane in planes)]
     alone = middle in inside and not any(sum(abs(a - b) for a, b in zip(p, middle, strict=True)) == 1 for p in inside)
     whole = tuple(2 * m for m in middle) == (x + u, y + v, z + w)
-    wrong = hull.components == 1 and whole and alone and not is_simple(hull.filled)
+    wrong = octree_hull(array_of(stairs)).components == 1 and whole and alone and not is_simple(array_of(inside))
     message = f"the hull of {len(stairs)} connected voxels has {len(inside)} digital points, none next to {middle}"
     return refuted(wrong, message)
 
