@@ -103,13 +103,12 @@ def growing_polyhedra(cases: int = CASES) -> Check:
 @claim("kovalevsky-schulz.50", "yau-srihari.15", full=120)
 def points_that_see_no_face(cases: int = 1) -> Check:
     outcomes, held = [], 0
-    for points, judge in hulls(cases):
-        for x, y, z in product((1, 4), repeat=3):
-            point = (x, y, z)
-            unseen = max(plane_value(f.plane, point) for f in judge.facets) <= 0
-            inside = point in points or len(points) not in exact_hull([*points, point]).vertices
-            outcomes.append(unseen == inside)
-            held += inside
+    tested: list[Point] = [(x, y, z) for x, y, z in product((1, 4), repeat=3)]
+    for (points, judge), point in product(hulls(cases), tested):
+        unseen = max(plane_value(f.plane, point) for f in judge.facets) <= 0
+        inside = point in points or len(points) not in exact_hull([*points, point]).vertices
+        outcomes.append(unseen == inside)
+        held += inside
     message = f"true for {len(outcomes)} points with coordinates 1 and 4, {held} of them in the hull"
     return searched(SETS[3], cases, [*outcomes, held], message)
 
@@ -205,10 +204,7 @@ def fewest_new_faces(cases: int = 3) -> Check:
         fewest = min(coplanar_hull(solid, QUADRANGLES).created, _created(solid))
         return [*extended.faces] == polygons(solid) and extended.created < fewest
 
-    def is_spatial(solid: Voxels) -> bool:
-        return SOLIDS.accepts(solid) and exact_hull(solid).dimension == len("xyz")
-
-    spatial = replace(SOLIDS, name=f"{SOLIDS.name}, not flat", accepts=is_spatial)
+    spatial = replace(SOLIDS, name=f"{SOLIDS.name}, not flat", accepts=lambda s: exact_hull(s).dimension == len("xyz"))
     message = "the hulls are exact and have fewer new faces than with coplanar faces visible, or invisible as in Fig. 7"
     return search(spatial, has_fewest, cases, message)
 

@@ -232,7 +232,7 @@ def crosses(a: Place, b: Place, c: Place, d: Place) -> bool:
 @claim("nakamae-nishita.26", number="4", full=25)
 @claim("nakamae-nishita.27", number="LP", full=25)
 def table_properties(number: str, cases: int = CASES) -> Check:
-    checks, met_premises, touching = [], 0, False
+    checks, premises, touching = [], 0, False
     for v, w in pairs(cases):
         pl, lp = tables_of(v, w)
         d = tables_by_2(v, w).crossing_number
@@ -242,15 +242,12 @@ def table_properties(number: str, cases: int = CASES) -> Check:
         for property_number in "1234" if number == "LP" else number:
             found, touches = _property(property_number, *(of_lp if number == "LP" else of_pl))
             # The converse is true for properties 2 and 4.
-            converse = property_number in "24"
-            checks += [right == premise if converse else right or not premise for premise, right in found]
-            met_premises += sum(premise for premise, _ in found)
+            checks += [right == premise or (right and property_number not in "24") for premise, right in found]
+            premises += sum(premise for premise, _ in found)
             touching |= touches
     units = {"3": "segments without -1", "4": "vertices", "LP": "cases of the four properties"}
-    unit = units.get(number, "pairs of contours")
-    check = searched(
-        POLYGONS, 2 * cases, checks, f"true for the {met_premises} of {len(checks)} {unit} that meet the premise"
-    )
+    message = f"true for the {premises} of {len(checks)} {units.get(number, 'pairs of contours')} that meet the premise"
+    check = searched(POLYGONS, 2 * cases, checks, message)
     return check.unless(touching, "a side without -1 that touches the other polygon, where d is -2 or -1")
 
 

@@ -150,10 +150,7 @@ def indices(cases: int = 3) -> Check:
     return check.unless(missed, "a segment through two corners of a square, for which no d is -4")
 
 
-_CONTOURS = replace(
-    POLYGONS,
-    name="convex polygons with coordinates from -2 to 6 and a square, with the segments between 16 points of a grid",
-)
+_CONTOURS = replace(POLYGONS, name="a square and convex polygons, coordinates -2 to 6; segments between 16 points")
 
 
 @claim("nakamae-nishita.35")

@@ -62,9 +62,10 @@ def end_of_the_procedure(dimension: int, cases: int = 2) -> Check:
         removed[0] += len(remaining)
         removed[1] += len(used) - len(hull.vertices)
         removed[2] += len(hull.history[-1].equations) - len(hull.faces)
-    message = f"in {cases} drawn sets and a fixed one, points neither added nor eliminated: {removed[0]}, all on the "
-    message += f"boundary; added points that are no vertices, removed: {removed[1]}; duplicate equations, removed: "
-    message += str(removed[2])
+    message = (
+        f"in {cases} drawn sets and a fixed one, {removed[0]} points are neither added nor eliminated, all on the "
+    )
+    message += f"boundary; removed: {removed[1]} added points that are no vertices, {removed[2]} duplicate equations"
     return searched(LATTICE_SETS[dimension], cases, [*outcomes, *removed], message)
 
 

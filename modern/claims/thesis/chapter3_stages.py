@@ -228,13 +228,12 @@ def _vertex_when_added(sampled: SampledSet) -> Iterator[bool]:
 def _added_triangle(sampled: SampledSet) -> Iterator[bool]:
     plane = sampled.judge.plane
     assert plane is not None
-    lattice = [
-        (x, y, (-plane[3] - plane[0] * x - plane[1] * y) // plane[2]) for x, y in product(range(-5, 6, 2), repeat=2)
-    ]
+    a, b, c, d = plane
+    lattice = [(x, y, (-d - a * x - b * y) // c) for x, y in product(range(-5, 6, 2), repeat=2)]
     for before, after, record, added in _steps(sampled):
-        a, b, c = (sampled.points[k] for k in (*before.defining[record.checked - 1], added))
+        triangle = [sampled.points[k] for k in (*before.defining[record.checked - 1], added)]
         for point in lattice:
-            yield _contains(after, point) == (_contains(before, point) or _in_triangle(point, a, b, c))
+            yield _contains(after, point) == (_contains(before, point) or _in_triangle(point, *triangle))
 
 
 def _added_tetrahedra(sampled: SampledSet) -> Iterator[bool]:
@@ -246,9 +245,8 @@ def _added_tetrahedra(sampled: SampledSet) -> Iterator[bool]:
         # One tetrahedron stands on each equation that is positive at the new point.
         corners = [[apex, *(sampled.points[k] for k in before.defining[at])] for at in visible]
         for point in lattice:
-            yield _contains(after, point) == (
-                _contains(before, point) or any(in_tetrahedron(point, four) for four in corners)
-            )
+            is_in_either = _contains(before, point) or any(in_tetrahedron(point, four) for four in corners)
+            yield _contains(after, point) == is_in_either
 
 
 def in_tetrahedron(point: Point, corners: list[Point]) -> bool:
@@ -270,11 +268,9 @@ def _convexity(sampled: SampledSet) -> Iterator[bool]:
     for before, after, record, added in _steps(sampled):
         # Page 30: replace only equation NETC, by the planes through its sides and the new point.
         other_planes = [plane for k, plane in enumerate(before.equations) if k != record.checked - 1]
-        i, j, k = (sampled.points[k] for k in before.defining[record.checked - 1])
-        new_planes = [_oriented(plane_through(p, q, sampled.points[added]), inner) for p, q in ((i, j), (i, k), (j, k))]
-        values = [
-            plane_value(plane, sampled.points[k]) for plane in (*other_planes, *new_planes) for k in after.vertices
-        ]
+        ends = combinations([sampled.points[k] for k in before.defining[record.checked - 1]], 2)
+        planes = [*other_planes, *(_oriented(plane_through(p, q, sampled.points[added]), inner) for p, q in ends)]
+        values = [plane_value(plane, sampled.points[k]) for plane in planes for k in after.vertices]
         yield (max(values) <= 0) == all(plane_value(plane, sampled.points[added]) <= 0 for plane in other_planes)
 
 
@@ -297,10 +293,7 @@ _PROPERTIES = {
     "farthest_outside": (_farthest_outside, "the new point has the largest value of equation NETC, which is positive"),
     "largest_of_all": (_largest_of_all, "no point, eliminated or not, has a larger value than the new point"),
     "replaced_line": (_replaced_facet, "two lines from the new point to the ends of one line replace this line"),
-    "replaced_plane": (
-        _replaced_facet,
-        "if a new point is outside one facet only, a new facet on each side replaces it",
-    ),
+    "replaced_plane": (_replaced_facet, "if a point is outside one facet only, a new one on each side replaces it"),
     "two_new_lines": (_two_new_lines, "each step adds two lines, and no point is outside both"),
     "counts": (_counts, "NV and NE of H_1 are 3, or 4 in space; each step adds 1 to NV, and in a plane to NE"),
     "renumbering": (_renumbering, "later lines move up by one number, and the two new lines are last"),
@@ -308,10 +301,7 @@ _PROPERTIES = {
     "vertex_when_added": (_vertex_when_added, "each added point is a vertex of the hull of the points added so far"),
     "added_triangle": (_added_triangle, "a lattice point is in H_k+1 exactly if it is in H_k or the added triangle"),
     "convexity": (_convexity, "if one plane is replaced, the body is convex exactly if no other plane is visible"),
-    "added_tetrahedra": (
-        _added_tetrahedra,
-        "a lattice point is in H_k+1 exactly if it is in H_k or an added tetrahedron",
-    ),
+    "added_tetrahedra": (_added_tetrahedra, "a lattice point is in H_k+1 exactly if in H_k or an added tetrahedron"),
 }
 _FLAT = ("replaced_line", "renumbering", "two_new_lines", "added_triangle")
 _SPACE = ("convexity", "added_tetrahedra")

@@ -120,7 +120,7 @@ def plane_duplicates_as_printed(cases: int = CASES) -> Check:
         kept_planes = [
             _unsigned(plane)
             for j, plane in enumerate(planes, 1)
-            if not any(not any(plane_value(plane, points[k]) for k in later) for later in last[j:])
+            if all(any(plane_value(plane, points[k]) for k in later) for later in last[j:])
         ]
         checks.append(sorted(kept_planes) == sorted(_unsigned(facet.plane) for facet in exact_hull(points).facets))
         differing += kept_planes != [_unsigned(face.lowest) for face in hull.faces]
