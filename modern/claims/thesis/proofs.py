@@ -51,8 +51,8 @@ def theorem_4_3() -> Proof:
         "V_k >= V_j implies that the point k is at least as far from the line as the point j",
         "D^2 is positive because the points differ in a coordinate. e is 1 or -1 and D^2 is the sum of the squares of "
         "the differences, so the squares of the cosines have the sum 1. The square of the distance of x from any point "
-        "of the line, times D^2, is at least V, and equals V at the foot of the perpendicular. So d^2 D^2 is V, and "
-        "dividing by D^2 keeps the order.",
+        "of the line, times D^2, is at least V, and equals V at the foot of the perpendicular. So d^2 D^2 is V, e^2 is "
+        "1, and dividing by D^2 keeps the order.",
         (
             *(
                 Step("D^2 > 0", {"differ": positive(a * a)}, positive(square), _sum("differ", (b, c)))
@@ -93,38 +93,6 @@ def theorem_4_3() -> Proof:
             ),
         ),
     )
-
-
-def squared_distance() -> Proof:
-    return Proof(
-        "d^2 e^2 D^2 is V for the distance d of a point from the line",
-        "e is 1 or -1, so e^2 is 1. D^2 is positive because the points differ in a coordinate. The square of the "
-        "distance of x from any point of the line, times D^2, is at least V, and equals V at the foot of the "
-        "perpendicular.",
-        _steps_of_4_3("D^2", "the square of"),
-    )
-
-
-def direction_cosines() -> Proof:
-    return Proof(
-        "the squares of the three quotients have the sum 1",
-        "D^2 is positive because the points differ in a coordinate. e is 1 or -1 and D^2 is the sum of the squares of "
-        "the differences.",
-        _steps_of_4_3("D^2", "the squares of"),
-    )
-
-
-def positive_square() -> Proof:
-    return Proof(
-        "D^2 is positive if the two points of the line are distinct",
-        "D^2 is the sum of the squares of the differences of their coordinates, one of which is not 0.",
-        _steps_of_4_3("D^2"),
-    )
-
-
-def _steps_of_4_3(*beginnings: str) -> tuple[Step, ...]:
-    """Return the steps of theorem 4.3 whose statements begin with one of the given words."""
-    return tuple(s for s in theorem_4_3().steps if any(s.says.startswith(f"{words} ") for words in beginnings))
 
 
 def _sum(name: str, squares: tuple[Polynomial, ...]) -> tuple[Term, ...]:
@@ -360,9 +328,9 @@ def theorem_4_5() -> Proof:
 
 
 @claim("thesis.119", "thesis.235", proof=theorem_4_3)
-@claim("thesis.121", proof=direction_cosines)
-@claim("thesis.122", proof=squared_distance)
-@claim("thesis.124", proof=positive_square)
+@claim("thesis.121", proof=theorem_4_3, conclusion="the squares of the three quotients have the sum 1")
+@claim("thesis.122", proof=theorem_4_3, conclusion="d^2 e^2 D^2 is V for the distance d of a point from the line")
+@claim("thesis.124", proof=theorem_4_3, conclusion="D^2 is positive if the two points of the line are distinct")
 @claim("thesis.125", "thesis.197", "thesis.236", proof=theorem_4_4)
 @claim("thesis.237", proof=theorem_4_4, conclusion="if C_0 is not 0, points with equal x and y have equal z")
 @claim("thesis.74", "thesis.131", "thesis.257", "thesis.258", proof=theorem_4_5)
