@@ -1,7 +1,7 @@
 """Checks of Appel and Will: properties of convex polyhedra, their two-dimensional methods, and steps as printed."""
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import combinations, product
@@ -187,38 +187,32 @@ def polyhedron_property(number: str, cases: int = 2 * CASES) -> Check:
     return searched(SETS[3], cases, checks, f"in {cases} hulls, {_MEANINGS[number]}")
 
 
-def _cones(points: Sequence[Point], judge: ExactHull) -> list[bool]:
-    """Return two truth values for each vertex of a hull.
+def _cones(points: Sequence[Point], judge: ExactHull) -> Iterator[bool]:
+    """Yield two truth values for each vertex of a hull.
 
     The first is True if no point is outside the planes of its faces, and the second if these planes meet only in the
     vertex.
     """
-    checks = []
     for k in judge.vertices:
         planes = [f.plane for f in judge.facets if k in f.polygon]
-        checks.append(all(plane_value(p, q) <= 0 for p in planes for q in points))
-        checks.append(any(dot(a[:3], cross(b[:3], c[:3])) for a, b, c in combinations(planes, 3)))
-    return checks
+        yield all(plane_value(p, q) <= 0 for p in planes for q in points)
+        yield any(dot(a[:3], cross(b[:3], c[:3])) for a, b, c in combinations(planes, 3))
 
 
-def _dihedral(points: Sequence[Point], judge: ExactHull) -> list[bool]:
-    checks = []
+def _dihedral(points: Sequence[Point], judge: ExactHull) -> Iterator[bool]:
     for edge in judge.edges():
         both = [f for f in judge.facets if {*edge} <= {*f.polygon}]
         far = [plane_value(both[0].plane, points[k]) < 0 for k in both[-1].polygon if k not in edge]
-        checks.append(len(both) == 2 and all(far))
-    return checks
+        yield len(both) == 2 and all(far)
 
 
-def _faces(points: Sequence[Point], judge: ExactHull) -> list[bool]:
-    checks = []
+def _faces(points: Sequence[Point], judge: ExactHull) -> Iterator[bool]:
     for facet in judge.facets:
         ring = [points[k] for k in facet.polygon]
         for p, q in sides(ring):
             # All other corners are to the left of each side.
             normals = [cross(minus(q, p), minus(r, p)) for r in ring if r not in (p, q)]
-            checks.append(min(dot(normal, facet.plane[:3]) for normal in normals) > 0)
-    return checks
+            yield min(dot(normal, facet.plane[:3]) for normal in normals) > 0
 
 
 _PROPERTIES = {"2": _cones, "3": _dihedral, "4": _faces}

@@ -66,10 +66,8 @@ def _connected(graph: Graph, without: frozenset[int]) -> bool:
 def coplanar_loops(cases: int = CASES) -> Check:
     checks = []
     for judge in map(exact_hull, _sets(cases)):
-        for first_edge, second_edge in combinations(judge.edges(), 2):
-            points = {*first_edge, *second_edge}
-            if len(points) == 3:
-                checks.append(sum(points <= {*facet.polygon} for facet in judge.facets) <= 1)
+        threes = [{*a, *b} for a, b in combinations(judge.edges(), 2) if len({*a, *b}) == 3]
+        checks += [sum(three <= {*facet.polygon} for facet in judge.facets) <= 1 for three in threes]
         checks.append(len({facet.plane for facet in judge.facets}) == len(judge.facets))
     message = (
         f"in {cases} drawn sets and three fixed ones, no two edges with a common end have two common loops, and no "

@@ -249,9 +249,8 @@ WITH_FOURTH_POINT = replace(
 def order_of_replacement(cases: int = CASES) -> Check:
     outcomes, reordered = [], 0
     for points in WITH_FOURTH_POINT.cases(cases):
-        text, listing = (
-            [f.lowest for f in hull.faces] for hull in (convex_hull(points, text=True), convex_hull(points))
-        )
+        hulls = convex_hull(points, text=True), convex_hull(points)
+        text, listing = ([f.lowest for f in hull.faces] for hull in hulls)
         outcomes.append(sorted(text) == sorted(listing) == sorted(f.plane for f in exact_hull(points).facets))
         reordered += text != listing
     message = f"{sum(outcomes)} of {cases} sets get the hull's planes by text and listing, {reordered} in another order"

@@ -167,13 +167,9 @@ def first_equation_tested(cases: int = CASES) -> Check:
         # The test of H_1 begins with equation 1.
         stopped = 1
         for (before, last), (step, netc) in pairwise(_traced(sampled.points)):
-            if before + step == "EC":
-                outcomes.append(netc == stopped)
-                numbers.append(netc)
-            if before == "C" and step in "CG":
-                outcomes.append(netc == last + (step == "C"))
-            if step == "G":
-                stopped = netc
+            outcomes.append(netc == {"EC": stopped, "CC": last + 1, "CG": last}.get(before + step, netc))
+            numbers += [netc] if before + step == "EC" else []
+            stopped = netc if step == "G" else stopped
     later = sum(number > 1 for number in numbers)
     message = f"{len(numbers)} hulls: the test begins with equation 1 for H_1, and otherwise with the equation at "
     message += (
