@@ -132,7 +132,7 @@ def equation_of_line() -> Check:
         return a * (u1 + along * u + right * v) + b * (v1 + along * v - right * u) + c - right * (u * u + v * v)
 
     message = "in the two coordinates of the equation, its left side is 0 exactly on the line through the two points"
-    argument = "The left side at a point is its distance to the right of the line times the distance of both points."
+    argument = "The left side at a point is its distance to the right of the line times the distance of the two points."
     return identity(difference, (2, 2, 2, 2, 1, 1), message, argument)
 
 

@@ -235,5 +235,5 @@ def value_against_distance() -> Check:
         value_of_point = dot((a, b, c), (t * a, t * b, t * c))
         return value_of_point**2 - dot((a, b, c), (a, b, c)) * (t * t) * dot((a, b, c), (a, b, c))
 
-    argument = "The foot of the point t (A, B, C) is the origin, and so its distance is t times the length."
+    argument = "If the plane contains the origin, this is the foot of t (A, B, C), at the distance t times the length."
     return identity(difference, (4, 4, 4, 2), "the value is the distance times the length of (A, B, C)", argument)
