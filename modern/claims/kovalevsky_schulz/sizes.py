@@ -12,7 +12,7 @@ from modern.claims.invariants import HalfBall, half_balls, may_be_convex, number
 from modern.claims.kovalevsky_schulz.polyhedra import hulls, polyhedron
 from modern.claims.published import PAPERS, printed_lines, results_of
 from modern.claims.sampled_sets import CASES, SETS, Point
-from modern.digital.solids import half_ball, listed
+from modern.digital.solids import Volume, half_ball, listed
 from modern.geometry.vectors import dot, minus
 from modern.papers.kovalevsky_schulz import CENTRES, INVISIBLE, VERTICES, VISIBLE, local_corners, voxel_hull
 from modern.papers.kovalevsky_schulz.cells import CellList, cell_list_size, economical_size, triangulation_size
@@ -132,6 +132,16 @@ def diameter_8() -> Check:
     return refuted(not possible and not exact, message)
 
 
+# Twice the coordinates of the centre: on a voxel, between two layers, and between four voxels of a layer.
+_OTHER_CENTRES = (0, 0, 0), (0, 0, 1), (1, 1, 0)
+
+
+def _half_ball(diameter: int, *centre: int) -> Volume:
+    sides = [range(-diameter // 2, diameter // 2 + 1)] * 2
+    around = product(*sides, range(centre[2], diameter // 2 + 1))
+    return listed([p for p in around if sum((2 * c - m) ** 2 for c, m in zip(p, centre, strict=True)) <= diameter**2])
+
+
 @claim("kovalevsky-schulz.87", diameter=10)
 @claim("kovalevsky-schulz.89", diameter=14)
 @claim("kovalevsky-schulz.90", diameter=16)
@@ -143,8 +153,10 @@ def row_of_table_5(diameter: int) -> Check:
     hull = straightened(cells)
     agrees = (len(cells.faces), _size(cells)) == (row.faces, row.integers) and row.has_quarter_turns()
     message = f"{len(cells.faces)} faces and {len(cells.vertices)} points give {_size(cells)} integers by formula (6)"
-    centred = len(half_ball_cells(diameter, "voxel").faces)
-    case = f"a half-ball centred on a voxel, which has {centred} faces"
+    moved = [voxel_hull(_half_ball(diameter, *o), VERTICES, 6, INVISIBLE).polyhedron.faces for o in _OTHER_CENTRES]
+    numbers = [(len(moved_cells.faces), _size(moved_cells)) for moved_cells in moved]
+    case = "half-balls centred on a voxel, between two layers, and between four voxels of a layer, which have "
+    case += f"{', '.join(f'{faces} faces and {integers} integers' for faces, integers in numbers)}"
     half, others = half_ball(diameter), {_size(hull)}
     of_centres = voxel_hull(half, CENTRES, 6, INVISIBLE).polyhedron.faces
     if _size(of_centres) != row.integers:
@@ -158,20 +170,19 @@ def row_of_table_5(diameter: int) -> Check:
         case += f"neighbours, visible coplanar faces or a random order, which give at most {max(others)}"
     case += f"; the cell list itself has {economical_size(cells)} integers"
     is_formula = row.integers not in (economical_size(cells), economical_size(hull))
-    refutes = centred != row.faces and is_formula and (hull == cells or row.integers not in others)
+    refutes = (row.faces, row.integers) not in numbers and is_formula and (hull == cells or row.integers not in others)
     return exhibited(agrees, message).unless(refutes, case)
 
 
 @claim("kovalevsky-schulz.88")
 def diameter_12() -> Check:
-    row, around = _row(12), product(range(-5, 7), range(-5, 7), range(7))
-    voxels = [(x, y, z) for x, y, z in around if (2 * x - 1) ** 2 + (2 * y - 1) ** 2 + (2 * z) ** 2 <= 12**2]
-    hull = exact_hull(local_corners(listed(voxels), VERTICES))
+    row, half = _row(12), _half_ball(12, 1, 1, 0)
+    hull = exact_hull(local_corners(half, VERTICES))
     size = cell_list_size(len(hull.vertices), len(hull.facets))
     agrees = (len(hull.facets), size) == (row.faces, row.integers)
     message = f"{len(hull.facets)} faces and {len(hull.vertices)} vertices give {size} integers by formula (6)"
     others = half_ball_cells(12)
-    cells = voxel_hull(listed(voxels), neighbours=6, coplanar=INVISIBLE).polyhedron.faces
+    cells = voxel_hull(half, neighbours=6, coplanar=INVISIBLE).polyhedron.faces
     exact = 3 * len(hull.vertices) + sum(len(facet.polygon) for facet in hull.facets)
     case = f"the half-ball centred on a corner of voxels, which has {len(others.faces)} faces; points on straight "
     case += f"edges, with which {len(cells.vertices)} points give {_size(cells)} integers; and the cell list itself, "

@@ -11,7 +11,7 @@ from decimal import ROUND_HALF_UP, Decimal
 from fractions import Fraction
 from functools import cache
 
-from modern.digital.solids import VERTEX, ball, half_ball
+from modern.digital.solids import ball, half_ball
 from modern.papers import Lines
 from modern.papers.kovalevsky_schulz.cells import (
     CellList,
@@ -45,9 +45,9 @@ def hull_of_ball(diameter: int, coplanar: Coplanar) -> VoxelHull:
 
 
 @cache
-def half_ball_cells(diameter: int, centre: str = VERTEX) -> CellList:
+def half_ball_cells(diameter: int) -> CellList:
     """Return the cell list of the hull of a half-ball. As in Table 5, points on straight edges are vertices too."""
-    return voxel_hull(half_ball(diameter, centre), neighbours=6, coplanar=INVISIBLE).polyhedron.faces
+    return voxel_hull(half_ball(diameter), neighbours=6, coplanar=INVISIBLE).polyhedron.faces
 
 
 def _ball(diameter: int) -> Iterator[tuple[str, Sequence[str]]]:
