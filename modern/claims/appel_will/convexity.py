@@ -169,9 +169,8 @@ def start_of_jarvis(cases: int = CASES) -> Check:
     first = _smallest_angle(origin[:2], points)
     is_inside = first in exact_hull(points).inside and 0 in exact_hull([origin, *points]).vertices
     is_beside = min(y for _, y, _ in points) <= origin[1] <= max(y for _, y, _ in points)
-    return check.unless(
-        is_inside and is_beside, f"the origin {origin[:2]}, from which {points[first][:2]} inside the hull is first"
-    )
+    case = f"the origin {origin[:2]}, from which {points[first][:2]} inside the hull is first"
+    return check.unless(is_inside and is_beside, case)
 
 
 def _smallest_angle(origin: Flat, points: Sequence[Point]) -> int:

@@ -279,7 +279,9 @@ def _restored(voxels: object, of: Of) -> list[list[int]]:
     return restored
 
 
-def _search_restored(of: Of, cases: int) -> Check:
+@claim("kovalevsky-schulz.46", of=VERTICES, full=500)
+@claim("kovalevsky-schulz.99", of=CENTRES, full=500)
+def reconstruction(of: Of, cases: int = 2) -> Check:
     def restores(solid: Voxels) -> bool:
         volume = listed(solid)
         filled: list[list[int]] = Volume(digital_hull(volume).filled, volume.origin).coordinates().tolist()
@@ -287,13 +289,3 @@ def _search_restored(of: Of, cases: int) -> Check:
 
     message = "the filled hull of each solid is restored from its own cell list and from that of the solid"
     return search(SOLIDS, restores, cases, message)
-
-
-@claim("kovalevsky-schulz.46", full=500)
-def reconstruction_by_corners(cases: int = 2) -> Check:
-    return _search_restored(VERTICES, cases)
-
-
-@claim("kovalevsky-schulz.99", full=500)
-def reconstruction(cases: int = 2) -> Check:
-    return _search_restored(CENTRES, cases)
