@@ -98,11 +98,13 @@ def _duplicates_removed_as_worded(
     """Return the equations of lines that remain if pages 26 to 28 are applied as worded.
 
     If a third point satisfies an equation, this equation is eliminated, and so is the middle one of the three points.
+    Page 28 says to continue until one equation of each line remains.
     """
     remaining, vertices = list(equations), list(used)
     for i in used:
         for pair in [*remaining]:
-            if i in vertices and i not in pair and i in on_line(points, *pair):
+            has_duplicates = len({frozenset(on_line(points, *p)) for p in remaining}) < len(remaining)
+            if has_duplicates and i in vertices and i not in pair and i in on_line(points, *pair):
                 remaining.remove(pair)
                 middle = sorted((i, *pair), key=lambda k: points[k])[1]
                 vertices = [k for k in vertices if k != middle]
