@@ -32,11 +32,17 @@ DARK = {
     "#c4553a": "#ff9d80",
     "#7d7567": "#9b9384",
     "#cbc3b2": "#544b37",
+    # Fills of bars: dark enough that hatching and error bars, which become light, are seen on them.
+    "#bbab85": "#75694e",
+    "#f7d8cd": "#7a3d2c",
+    "#dbe7c8": "#46592f",
+    "#e4dcf0": "#4f4273",
+    "#d9cba8": "#544b37",
 }
 MARKERS = ("o", "s", "^", "D", "v", "X")
 LINES = ("-", "--", "-.", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 1.5)), (0, (8, 2)))
 # The colours of bars, which the site uses for cards and readings too.  They are light enough to show error bars.
-FILLS = ("#b9a982", "#f7d8cd", "#fdfcf8", "#dbe7c8", "#e4dcf0", "#d9cba8")
+FILLS = ("#bbab85", "#f7d8cd", "#fdfcf8", "#dbe7c8", "#e4dcf0", "#d9cba8")
 HATCHES = ("", "", "", "///", "...", "xxx")
 _PALE = "#cbc3b2"
 _MARK: Any = {"color": QUIET, "linewidth": 1, "linestyle": (0, (4, 2)), "zorder": 1.5}
@@ -45,8 +51,8 @@ _MANY_DECADES = 1e4
 _ROW = 0.17
 # The height of the note at the bottom, in inches.
 _NOTE = 0.22
-# If the names below bars must be wrapped, their lines have at most this number of characters.
-_WRAPPED = 14
+# The number of characters that fit side by side below bars. If the names of groups are longer, they are wrapped.
+_ACROSS = 84
 # For the labels of series: the most characters in a line, and the height of a line as a share of that of the axes.
 _LABEL, _LINE_HEIGHT = 20, 0.052
 # For upright names of series: the width of a letter as a share of the height of the axes.
@@ -96,7 +102,8 @@ def draw(chart: Chart, folder: Path, kinds: Sequence[str] = ("svg", "png")) -> N
 
 def _themed(svg: bytes) -> bytes:
     rules = "".join(
-        f'[style*="{kind}: {light}"]{{{kind}:{dark}!important}}'
+        # The ground of a hatched bar has its colour in an attribute.
+        f'[style*="{kind}: {light}"],[{kind}="{light}"]{{{kind}:{dark}!important}}'
         for light, dark in DARK.items()
         for kind in ("fill", "stroke")
     )
@@ -313,7 +320,7 @@ def _standing(axes: Any, chart: Chart) -> None:
         axes.errorbar(middle, heights, _errors(series), **_WHISKERS)
     labels = [typeset(name) for name in groups]
     if sum(map(len, labels)) > 70:
-        labels = [textwrap.fill(label, _WRAPPED) for label in labels]
+        labels = [textwrap.fill(label, max(8, _ACROSS // len(groups)), break_long_words=False) for label in labels]
     axes.set_xticks(range(len(groups)), labels)
     axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: number(value, chart.percent)))
     top = max((e.high for series in chart.series for _, e in series.points), default=1.0)
@@ -323,18 +330,17 @@ def _standing(axes: Any, chart: Chart) -> None:
 
 
 def _name_bars(axes: Any, chart: Chart, width: float, top: float) -> None:
-    """Write the name of each series vertically above its highest bar; make room for the names above all bars."""
-    groups = names(chart)
+    """Write the names of the series vertically above the bars of the highest group, in a line above all bars."""
+    heights = {name: sum(e.value for s in chart.series for at, e in s.points if at == name) for name in names(chart)}
+    left = list(heights).index(max(heights, key=lambda name: heights[name])) - 0.4
     axes.set_yticks([tick for tick in axes.get_yticks() if tick <= top])
     lines = [textwrap.fill(typeset(series.name), _LABEL) for series in chart.series]
     longest = max(len(line) for name in lines for line in name.split("\n"))
     axes.set_ylim(0, top / (1 - _LETTER * (longest + 2)))
-    for k, series in enumerate(chart.series):
-        if series.points:
-            name, highest = max(series.points, key=lambda point: point[1].high)
-            place = (groups.index(str(name)) - 0.4 + (k + 0.5) * width, highest.high)
-            above: Any = {"xytext": (0, 4), "textcoords": "offset points", "ha": "center", "va": "bottom"}
-            axes.annotate(lines[k], place, rotation=90, **above, **_SMALL)
+    axes.spines["left"].set_bounds(0, top)
+    above: Any = {"xytext": (0, 4), "textcoords": "offset points", "ha": "center", "va": "bottom"}
+    for k, name in enumerate(lines):
+        axes.annotate(name, (left + (k + 0.5) * width, top), rotation=90, **above, **_SMALL)
 
 
 def _lying(axes: Any, chart: Chart, k: int) -> None:
