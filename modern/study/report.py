@@ -16,7 +16,7 @@ from modern.study.summary import summary
 _RAISED = str.maketrans("0123456789-+dk", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺ᵈᵏ")
 _NUMBER = r"[\N{MINUS SIGN}\d.,]+"
 # Matches an estimate with its interval, an interval alone, each with or without a percent sign, or a percentage.
-_TOGETHER = re.compile(rf"(?:{_NUMBER} )?\({_NUMBER} to {_NUMBER}\)(?: %)?|{_NUMBER} %")
+_TOGETHER = re.compile(rf"(?:{_NUMBER} )?\({_NUMBER} to {_NUMBER}\)(?: %| s\b)?|{_NUMBER} %")
 _NUMERIC = frozenset("0123456789.+-%eE to(),")
 INTERVALS = ("The numbers in parentheses are exact 95 % intervals of proportions (Clopper and Pearson).",)
 

@@ -44,10 +44,13 @@ class MadeDirective(SphinxDirective):
             content = make(name, argument)
         except ValueError as error:
             raise self.error(f"made: {error}") from None
+        # Links in a file that is shown are relative to its folder, those in other texts to the page.
+        is_file = argument.endswith(".md")
+        origin = posixpath.dirname(argument if is_file else posixpath.join("docs", self.env.docname))
         top = nodes.container()
         stack: list[tuple[int, nodes.Element]] = [(0, top)]  # the open sections with their levels, the innermost last
         for part in content:
-            inner = self._inner(part)
+            inner = self._inner(part, origin)
             if part.heading:
                 # A section closes the open sections of its own and of deeper levels.
                 while stack[-1][0] >= part.level:
@@ -61,10 +64,11 @@ class MadeDirective(SphinxDirective):
             top.append(nodes.raw("", jump, format="html"))
         return [*top.children]
 
-    def _inner(self, part: Part) -> list[nodes.Node]:
+    def _inner(self, part: Part, origin: str) -> list[nodes.Node]:
         content: list[nodes.Node] = []
         if part.text:
-            content += self.parse_text_to_nodes(part.text, allow_section_headings=False)
+            source = linked(self.env.app, part.text, self.env.docname, origin)
+            content += self.parse_text_to_nodes(source, allow_section_headings=False)
         if part.html:
             html = relative(part.html, self.env.docname.count("/"))
             content.append(nodes.raw("", html, format="html"))
@@ -72,7 +76,7 @@ class MadeDirective(SphinxDirective):
 
 
 _LONG = 8  # the number of sections from which a page gets a list of them that stays in the window
-_SECTION = re.compile(r"(?:Page |Sheet |Error )?(\d\S*?|E\d+)[.:]?(?= |$)")
+_SECTION = re.compile(r"(?:Page |Section |Sheet |Error )?(\d\S*?|[EF]\d+)[.:]?(?= |$)")
 
 
 def _jump_list(content: list[Part]) -> str:
@@ -129,9 +133,13 @@ def _copied(file: str) -> bool:
     return file.startswith("docs/") and not file.endswith((".md", "/")) and "." in posixpath.basename(file)
 
 
+# A word in code that fits into a line of a phone, and is not broken at its hyphens.
+_SHORT = re.compile(r'<span class="pre">([^<]{1,26})</span>')
+
+
 def _stack_tables(app: Sphinx, name: str, template: str, context: dict[str, Any], tree: object) -> None:
     if "body" in context:
-        context["body"] = stacked(context["body"])
+        context["body"] = stacked(_SHORT.sub(r'<span class="pre short">\1</span>', context["body"]))
 
 
 def _write_places(app: Sphinx, exception: Exception | None) -> None:

@@ -103,8 +103,8 @@ _TAG = re.compile(r"<[^>]+>")
 _NO_BREAK = re.compile("(?<![)])\N{NO-BREAK SPACE}(?!%)(?![^<>]*>)")
 # The characters that separate words; a no-break space does not separate them.
 _WORD = re.compile(r"[ \n]+")
-# The number of letters that fit into one line of a window of 360 pixels.
-_NARROW = 40
+# The number of letters that fit into one line of a window of 360 pixels, and the most lines of a cell in such a window.
+_NARROW, _LINES = 40, 5
 
 
 def stacked(html: str) -> str:
@@ -118,11 +118,12 @@ def stacked(html: str) -> str:
     def labelled(match: re.Match[str]) -> str:
         rows = [[_TAG.sub("", cell[2]).strip() for cell in _CELL.findall(row)] for row in _ROW.findall(match[2])]
         # A column is at least as wide as its longest word, and cells are two letters apart.
-        longest = (
+        longest = [
             max((len(word) for cell in column for word in _WORD.split(cell)), default=0) + 2
             for column in zip(*rows, strict=False)
-        )
-        if sum(longest) <= _NARROW or len(rows) < 2:
+        ]
+        is_high = any(len(cell) * len(row) > _LINES * _NARROW for row in rows for cell in row if len(row) > 2)
+        if len(rows) < 2 or (sum(longest) <= _NARROW and not is_high):
             return match[0]
         head, labels = _ROW.search(match[2]), rows[0]
         assert head is not None, "a table has rows"

@@ -92,9 +92,13 @@ def _rows() -> Iterator[Place]:
 
 
 def _names() -> Iterator[Place]:
-    names = [(entry.name, _ORDER.index(program)) for program in programs.NAMES for entry in uses(program).names]
-    for name, order in sorted(names):
-        yield Place(name, _ORDER[order], f"name-{name}", f"variable of {_ORDER[order]}")
+    names = [
+        (entry.name, _ORDER.index(program), "library function in" if entry.function else "variable of")
+        for program in programs.NAMES
+        for entry in uses(program).names
+    ]
+    for name, order, kind in sorted(names):
+        yield Place(name, _ORDER[order], f"name-{name}", f"{kind} {_ORDER[order]}")
 
 
 def _cards(name: str) -> Iterator[Place]:

@@ -12,7 +12,7 @@ from modern.publication.building import citation
 from modern.publication.facing import Card, facing
 from modern.publication.site.downloads import FOLDER, downloads
 from modern.publication.site.made import Part, one_of
-from modern.publication.site.markup import HERE, bar, element, escape, link, marked, preformatted, table, text
+from modern.publication.site.markup import HERE, bar, element, escape, link, marked, table, text
 from modern.publication.site.pages.statements import SIGNS
 from modern.publication.tei_register import document_of
 
@@ -112,7 +112,7 @@ def _files() -> str:
     for item in downloads():
         size = sum(map(len, item.files.values()))
         megabytes = f"{size / 1e6:.1f} MB" if size >= 1e5 else f"{size / 1e3:.0f} kB"
-        content = f"{len(item.files)} files, {megabytes}" if item.packed else megabytes
+        content = f"{len(item.files):,} files, {megabytes}" if item.packed else megabytes
         file_link = text("a", item.name, href=f"{HERE}{FOLDER}/{item.name}", download=True)
         rows.append((file_link, escape(item.title), content, escape(item.licence)))
     return table(("file", "contents", "size unpacked", "licence"), rows, "Downloads")
@@ -135,5 +135,6 @@ def _cite() -> str:
     hashes = table(("deck", "cards", "SHA-256"), rows, "Hashes", "The decks of this edition")
     card = text("code", "program3.html#147+2")
     addresses = f"Cite a card by its address, such as {card}, and a row of the apparatus by its id."
-    citations = element("blockquote", text("p", reference)) + preformatted(bibtex, "BibTeX")
+    citations = element("blockquote", text("p", reference))
+    citations += text("pre", bibtex, tabindex="0", aria_label="BibTeX", cls="wraps")
     return citations + element("p", addresses) + hashes

@@ -38,4 +38,5 @@ def summary(page: str) -> tuple[str, str]:
     paragraphs = (" ".join(part.split()) for part in rest.split("\n\n"))
     first = next((part for part in paragraphs if part and part[0].isalpha()), "")
     sentence = _SENTENCE.split(_LINK.sub(lambda match: (match[1] or match[2]).strip(), first))[0]
-    return title.strip(), re.sub(r"^This (page|guide|table) ", "", sentence)
+    sentence = re.sub(r"^This (page|guide|table) ", "", sentence)
+    return title.strip(), sentence[:1].upper() + sentence[1:]

@@ -105,7 +105,9 @@ def map_svg(storage: CoreMap) -> str:
                 yield svg.text(Pixel(x, middle - 200), region.name or region.kind)
                 yield svg.text(Pixel(x, middle + 1000), _count(region))
             elif tall >= _LINE:
-                yield svg.text(Pixel(x, middle + 330), region.name or f"{region.kind} {_count(region)}")
+                # In a box that is hardly higher than the text, smaller letters keep clear of its lines.
+                size = 'font-size="8.7"' if tall < 13 else ""
+                yield svg.text(Pixel(x, middle + 300), region.name or f"{region.kind} {_count(region)}", size)
 
     def addresses() -> Iterator[str]:
         last = 10**9

@@ -23,10 +23,17 @@ def make(argument: str) -> list[Part]:
     for judgement in judged(name):
         rows_of.setdefault(judgement.statement.page, []).append(judgement)
     for page, rows_of_page in rows_of.items():
-        title = f"Page {page}" if page[:1].isdigit() else page.capitalize()
+        title = _title(name, page)
         html = element("ol", "".join(map(_statement, rows_of_page)), cls="statements")
         parts.append(Part(title, slug("page", page), html=html))
     return parts
+
+
+def _title(document: str, page: str) -> str:
+    """Return the heading for a page of the thesis, or for a section or figure of one of the papers."""
+    if page[:1].isdigit():
+        return f"Page {page}" if document == "thesis" else f"Section {page}"
+    return "Appendix" if page == "A" else page[:1].upper() + page[1:]
 
 
 def _controls(document: str) -> str:
@@ -35,7 +42,7 @@ def _controls(document: str) -> str:
     for name in COLUMNS:
         box = element("input", type="checkbox", value=_CLASSES[name], name="verdict", checked=True)
         boxes += element("label", box + escape(f" {SIGNS[name]} {name}: {numbers[name]}"))
-    field = element("label", "Text: " + element("input", type="search", name="words", autocomplete="off"))
+    field = element("label", "Containing " + element("input", type="search", name="words", autocomplete="off"))
     button = text("button", "Show", type="submit")
     shown = text("output", "", cls="shown")
     inner = element("fieldset", text("legend", "Verdicts shown") + boxes) + element("p", f"{field} {button} {shown}")
