@@ -20,8 +20,14 @@ NOT_FOUND = Style("not-found", "missing face", "line", 'fill="#c1121f" fill-opac
 NO_FACE = Style(
     "no-face", "false face", "line", 'fill="#1d6fb8" fill-opacity="0.25" stroke="#1d6fb8" stroke-dasharray="2 3"'
 )
+_PLURAL = {
+    MISSED.key: "missing vertices",
+    ADDED.key: "false vertices",
+    NOT_FOUND.key: "missing faces",
+    NO_FACE.key: "false faces",
+}
 _FONT = f'font-family="{svg.FONT}" font-size="13" fill="#000"'
-_STEP, _RING, _HALF = 19, "6.5", 460
+_STEP, _RING, _HALF = 19, "5", 460
 
 
 def draw_against(
@@ -90,7 +96,9 @@ def _legend(claim: CardDifferences, top: int) -> Iterator[str]:
         else:
             corners = [Pixel(at.x + x * 900, at.y + y * 500) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
             yield svg.polygon(corners, style.attributes)
-        yield svg.text(Pixel((MARGIN + 26) * 100, base * 100), f"{style.name}: {count}")
+        yield svg.text(
+            Pixel((MARGIN + 26) * 100, base * 100), f"{count} {style.name if count == 1 else _PLURAL[style.key]}"
+        )
     if not _counts(claim):
         yield svg.text(Pixel(MARGIN * 100, (top + 4) * 100), "no differences")
     elif claim.others:

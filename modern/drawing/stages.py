@@ -177,6 +177,6 @@ def _legend(top: int, all_frames: Sequence[Frame]) -> list[str]:
         for style, name in styles:
             yield svg.sample(style, Pixel(100 * (x + 6), 100 * (top + 8)))
             yield svg.text(Pixel(100 * (x + 18), 100 * (top + 12)), name)
-            x += 34 + 7 * len(name)
+            x += 28 + 33 * len(name) // 5
 
     return svg.group("legend", _FONT, items())

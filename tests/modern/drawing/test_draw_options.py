@@ -105,8 +105,8 @@ def test_missing_vertices_and_false_faces_of_cards_are_drawn() -> None:
     text = draw_against(hull, claim)
     drawn = groups(text)
     assert len(drawn["not-found"]) == len(drawn["no-face"]) == 1
-    assert "missing face: 1" in text
-    assert "false face: 1" in text
+    assert "1 missing face" in text
+    assert "1 false face" in text
 
 
 def test_differences_of_points_are_drawn_and_explained() -> None:

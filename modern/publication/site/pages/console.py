@@ -39,7 +39,8 @@ def _wrong() -> list[Part]:
     hull = convex_hull(points, "exact", on_refusal="return")
     claim = card_differences(read_hull(punched), hull, "cards")
     answer = parted("\n".join(" ".join(point) for point in points))
-    caption = "The true hull, a tetrahedron. Red: missed by the programs. Blue: added by the programs."
+    added = " Blue: added by the programs." if claim.added or claim.polygons else ""
+    caption = f"The true hull, a tetrahedron. Red: missed by the programs.{added}"
     drawn = figure(draw_against(hull, claim, width=520, show=Show("input")), "wrong", caption, "drawing coloured")
     cards = preformatted("\n".join(punched), "the cards punched")
     differences = "".join(text("li", line) for line in (*answer["says"], answer["part"]))

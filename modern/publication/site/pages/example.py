@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterator
 
 from emulator.machine.endings import Ending
-from modern.drawing.draw import draw_svg
+from modern.drawing.draw import Show, draw_svg
 from modern.drawing.punched import cards_svg
 from modern.drawing.stages import frames, strip
 from modern.edition.chapter6 import EXAMPLES, input_deck
@@ -80,7 +80,7 @@ def _pictures(number: int) -> Iterator[Section]:
     points = parse_input(deck.text(), f"example{number}").points
     hull = convex_hull(points, "exact", history=True, on_refusal="return")
     caption = "The hull in exact arithmetic. The programs punch the same hull."
-    drawn = figure(draw_svg(hull, width=520), f"hull{number}", caption)
+    drawn = figure(draw_svg(hull, width=520, show=Show("input")), f"hull{number}", caption)
     punched = figure(
         cards_svg(deck, title=f"the input deck of example {number}"),
         f"deck{number}",
@@ -94,13 +94,16 @@ def _pictures(number: int) -> Iterator[Section]:
     except ExportError:
         return
     steps = "".join(text("li", "; ".join(filter(None, stage.caption))) for stage in stages)
-    caption = "The hulls H1 to Hf, each with the vertex that was added, all from the same direction."
+    last = stages[-1].stage.number
+    caption = f"The hulls H1 to H{last}, each with the vertex that was added, all from the same direction."
     construction = figure(strip(stages), f"stages{number}", caption, "drawing construction")
     construction += element("ol", steps, cls="stages")
     yield Section("The construction", "construction", html=construction)
 
 
 def _part(part: Part) -> str:
+    if not part.cards:
+        return text("p", "According to the thesis, the program types nothing in this run.")
     html = text("p", "The thesis describes these lines but does not print them.") if part.stated else ""
     html += element("ol", "".join(_card(card, part) for card in part.cards), cls="print-cards")
     if part.rows:
@@ -108,7 +111,8 @@ def _part(part: Part) -> str:
         rows = "".join(entry(row, (), f"example{part.example}") for row in shown_here)
         shown_elsewhere = [link(f"example{homes()[r.id][0]}", r.id, r.id) for r in part.rows if r not in shown_here]
         if shown_elsewhere:
-            rows += element("p", f"And {', '.join(shown_elsewhere)}, which also concern other cards.")
+            verb = "concerns" if len(shown_elsewhere) == 1 else "concern"
+            rows += element("p", f"And {', '.join(shown_elsewhere)}, which also {verb} other cards.")
         count = "1 row corrects" if len(part.rows) == 1 else f"{len(part.rows)} rows correct"
         summary = f"Apparatus: {count} the OCR text of these cards"
         html += details(summary, rows, cls="rows-of-print")
@@ -118,7 +122,8 @@ def _part(part: Part) -> str:
 def _card(card: Shown, part: Part) -> str:
     """Return the lines of a card: the witness, the corrected print and the run. Equal lines are shown only once."""
     is_same_run = card.run is not None and not card.differs
-    label = "print = run" if is_same_run else "print"
+    label = "stated" if part.stated else "print"
+    label += " = run" if is_same_run else ""
     if len(card.sources) == 1 and card.sources[0].text == card.print and not card.continued:
         lines = _line("corrected", f"{card.sources[0].line} = {label}", _fields(card.print), _place(card.sources[0]))
     else:

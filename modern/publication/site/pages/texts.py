@@ -1,16 +1,13 @@
 """The known faults with their decks, the open questions, the sources of the texts, and the error numbers."""
 
-import re
-
 from emulator.errors import explanations
 from modern.edition import programs
-from modern.edition.sources import Document, read, sources
+from modern.edition.sources import Document, Stretch, read, sources
 from modern.publication.facing import page_of
 from modern.publication.numbered import Item, numbered
 from modern.publication.site.made import Part, one_of, slug
 from modern.publication.site.markup import definitions, details, element, escape, preformatted, run_link, table, text
 
-_FILE = re.compile(r"\[([^\]]+)\]\((?!https?:)[^)]+\)")
 # The files of numbered items, with the prefix of their ids.
 FILES = {"fortran_src/KNOWN-FAULTS.md": "fault", "fortran_src/OPEN-QUESTIONS.md": "question"}
 
@@ -27,12 +24,12 @@ def make(argument: str) -> list[Part]:
     for item in items:
         if item.section != section:
             section = item.section
-            parts.append(Part(section, slug("of", section), text=_FILE.sub(r"\1", item.preamble)))
+            parts.append(Part(section, slug("of", section), text=item.preamble))
         level = 2 if section else 1
         parts.append(Part(f"{item.number}. {item.title}", f"{kind}-{item.number}", level, text=_linked(item)))
         parts += [Part(html=_deck(deck)) for deck in item.decks]
     if closing[0]:
-        parts.append(Part(closing[0], "after", text=_FILE.sub(r"\1", closing[1])))
+        parts.append(Part(closing[0], "after", text=closing[1]))
     return parts
 
 
@@ -48,14 +45,14 @@ def _errors() -> list[Part]:
 
 
 def _linked(item: Item) -> str:
-    """Return the text of an item with links to rows of the listings and without links to files."""
+    """Return the text of an item with links to rows of the listings."""
     content = item.text
     for row in item.rows:
         if row.startswith("P"):
             address = f"{page_of(programs.text(f'program{row[1]}').row(row))}.html#{row}"
             html = f'<a class="reference internal" href="{address}"><span class="std std-ref">{row}</span></a>'
             content = content.replace(row, html, 1)
-    return _FILE.sub(r"\1", content)
+    return content
 
 
 def _deck(name: str) -> str:
@@ -67,6 +64,15 @@ def _deck(name: str) -> str:
     return details(f"the deck grounds/{name}: {count} cards", content, cls="deck-shown")
 
 
+def _doi(doi: str) -> str:
+    return text("a", doi, href=f"https://doi.org/{doi}") if doi.startswith("10.") else escape(doi)
+
+
+def _stretch(stretch: Stretch) -> str:
+    lines = f"{stretch.first}-{stretch.last}" if stretch.first < stretch.last else str(stretch.first)
+    return f"{lines} from {stretch.at}{' (partly)' if stretch.part else ''}"
+
+
 def _document(document: Document) -> str:
     facts = definitions(
         (
@@ -74,8 +80,8 @@ def _document(document: Document) -> str:
             ("kind", escape(document.kind)),
             ("year", escape(document.year)),
             ("institution", escape(document.institution)),
-            ("volume, pages", escape(", ".join(filter(None, (document.volume, document.extent))))),
-            ("DOI", escape(document.doi)),
+            ("volume, pages", escape(", ".join(dict.fromkeys(filter(None, (document.volume, document.extent)))))),
+            ("DOI", _doi(document.doi)),
             ("text available", escape(document.held)),
             ("length", f"{document.bytes:,} bytes, {document.characters:,} characters, {document.lines:,} lines"),
             ("SHA-256", text("code", document.sha256)),
@@ -86,7 +92,7 @@ def _document(document: Document) -> str:
     rows = [
         (
             text("code", excerpt.file),
-            "; ".join(f"{s.first}-{s.last} from {s.at}{' (partly)' if s.part else ''}" for s in excerpt.stretches[:6])
+            "; ".join(map(_stretch, excerpt.stretches[:6]))
             + (f"; and {len(excerpt.stretches) - 6} more" if len(excerpt.stretches) > 6 else ""),
             text("code", excerpt.sha256[:16]),
         )
