@@ -98,7 +98,10 @@ def half_balls() -> Iterator[HalfBall]:
 
 @claim("kovalevsky-schulz.171")
 def table_5() -> Check:
-    """Check the numbers of integers in Table 5: 4.5 for each triangle, and 3 V + 5 F for V vertices and F faces."""
+    """Check the storage sizes in Kovalevsky and Schulz's Table 5, which are counts of stored integers.
+
+    A list of triangles needs 4.5 integers for each triangle; a cell list needs 3 V + 5 F for V vertices and F faces.
+    """
     outcomes: list[Outcome] = []
     for row in half_balls():
         hundredths = Fraction(100 * row.integers, row.faces)

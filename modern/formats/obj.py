@@ -51,7 +51,7 @@ def _corner(source: str, line: int, token: Token, vertices_before: int, count: i
     """Return the index of a vertex of a face.  A negative number counts back from the last vertex before the face."""
     match = re.fullmatch(r"(-?)([0-9]{1,9})(?:/-?[0-9]*){0,2}", token[0])
     if not match:
-        raise error(source, line, token, f"{quoted(token[0])} is not a vertex of a face")
+        raise error(source, line, token, f"{quoted(token[0])} is not the number of a vertex")
     index = vertices_before - int(match[2]) if match[1] else int(match[2]) - 1
     if not 0 <= index < (vertices_before if match[1] else count):
         raise error(source, line, token, f"there is no vertex {quoted(token[0])}; they are numbered from 1 to {count}")

@@ -15,8 +15,9 @@ A method raises an *alarm* at a decision if it cannot confirm the target that th
 - ``interval``: the bounds of the number do not both lead to the target that the machine took.
 - ``double``: arithmetic with twice the digits leads to another target.
 
-If the number has no significant digit, ``cadna3``, ``cadna10`` and ``parker10`` take the branch for zero; ``vote10``
-takes the branch of most samples.  Chapter 7's e applies to the decisions that the layer ``epsilon`` changes.  It raises
+The measure also records which branch a program would take if it used a method to decide.  With ``cadna3``, ``cadna10``
+and ``parker10``, a number without a significant digit counts as zero.  With ``vote10``, the branch to which most of the
+ten samples lead is taken.  Chapter 7's e applies to the decisions that the layer ``epsilon`` changes.  It raises
 an alarm if the number is within e of zero, but not zero, and zero leads to another target.  The measure records the
 least power of ten that raises an alarm if it is used as e.
 """

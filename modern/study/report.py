@@ -60,7 +60,7 @@ def percent(share: Interval) -> str:
 
 
 def row(*cells: object) -> tuple[str, ...]:
-    """Return a row of a table: None becomes a dash, an interval a proportion in percent, anything else its text."""
+    """Return the cells of a row as texts. None becomes a dash, and an interval becomes a percentage with its bounds."""
     return tuple("-" if cell is None else percent(cell) if isinstance(cell, Interval) else str(cell) for cell in cells)
 
 

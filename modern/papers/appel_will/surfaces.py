@@ -46,8 +46,8 @@ class Fates:
 def fates_by_points(original: Sequence[Surface], faces: Sequence[Collection[int]], hull: Sequence[Surface]) -> Fates:
     """Return what becomes of the given surfaces on a hull, some of whose faces may have been merged.
 
-    A given surface lies in the face that contains all of its points. For each face of the hull, ``faces`` has all
-    points that count as lying in it, and ``hull`` the points around it.
+    For each face of the hull, ``faces`` holds all points that count as lying in the face, and ``hull`` holds its
+    corners in order. A given surface lies in the face that contains all of the surface's points.
     """
     numbers = range(len(hull))
     of = tuple(next((number for number in numbers if set(faces[number]) >= set(s)), None) for s in original)

@@ -299,7 +299,7 @@ def test_a_plate_is_accepted_and_an_open_surface_is_replaced_by_its_hull() -> No
         (b"v 0 0 0\nf 1 2 3\n", "a.obj: line 2, column 5: there is no vertex '2'; they are numbered from 1 to 1"),
         (b"v 0 0 0\nf -2\n", "a.obj: line 2, column 3: there is no vertex '-2'"),
         (b"v 0 0 0\nf 0\n", "a.obj: line 2, column 3: there is no vertex '0'"),
-        (b"v 0 0 0\nf a\n", "a.obj: line 2, column 3: 'a' is not a vertex of a face"),
+        (b"v 0 0 0\nf a\n", "a.obj: line 2, column 3: 'a' is not the number of a vertex"),
         (b"v 0 0 0\nf\n", "a.obj: line 2, column 1: a face needs at least one vertex"),
         (b"solid a\nfacet\nvertex 0 0 0\nendfacet\n", "line 4, column 1: expected a triangle of 3 vertices, found 1"),
         (b"solid a\nfacet\nvertex 0 0 0\n", "a.obj: line 3, column 1: the file ends after 1 of 3"),
