@@ -3,6 +3,7 @@
 import re
 from collections.abc import Sequence
 from fractions import Fraction
+from functools import cache
 from itertools import pairwise
 
 from emulator.language.objectcode import Line, Program
@@ -181,7 +182,8 @@ def first_equation_tested(cases: int = CASES) -> Check:
     return searched(BOTH, 2 * cases, [*outcomes, later], message)
 
 
-def _traced(points: Sequence[Point]) -> list[tuple[str, int]]:
+@cache
+def _traced(points: tuple[Point, ...]) -> list[tuple[str, int]]:
     """Run the programs on a set; return the steps of ``_ELIMINATE_CHECK_GROW`` in order, each with the number NETC."""
     steps: list[tuple[str, int]] = []
 
