@@ -1,4 +1,4 @@
-"""Checks of chapters 5 to 7: messages, table sizes, printed hulls, comments, the variable INSID, and the translation."""
+"""Checks of chapters 5 to 7: messages, table sizes, printed hulls, comments, the variable INSID, and translation."""
 
 import re
 from collections.abc import Iterable, Sequence
