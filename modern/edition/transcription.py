@@ -55,7 +55,7 @@ Texts = dict[int, tuple[str, tuple[int, ...]]]
 class EditionCard:
     """A card of a built-in program: its number in the deck, its name, and its characters without blanks.
 
-    ``label`` is the statement number, and ``text`` the rest of the card.
+    ``label`` is the statement number, and ``text`` is the rest of the card.
     """
 
     program: str
@@ -215,7 +215,7 @@ class _Index:
     def divided(self, number: int, line: str) -> Iterator[tuple[int, str]]:
         """Divide a line that contains more than two cards, and yield the pieces with the number of the line.
 
-        Eight characters that occur only once in the cards identify a card.  They are called an anchor.
+        A sequence of eight characters that occurs only once in the cards identifies its card and is called an anchor.
         """
         text = solid(line)
         if len(text) <= LONGEST:

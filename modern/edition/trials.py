@@ -20,7 +20,7 @@ LIMIT = 30_000
 class Trial:
     """Data cards of a program and the punched lines that the document prints for them.
 
-    ``switches`` are the sense switches that are on, and ``operator`` the text of a file of the operator's actions.
+    ``switches`` are the sense switches that are on, and ``operator`` is the text of a file of the operator's actions.
     ``final`` is True if the lines hold a hull, and False for a deck for the next program.  ``in_order`` is False if the
     parts of a result may be in another order than the printed ones.
     """

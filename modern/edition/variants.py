@@ -52,10 +52,10 @@ FUNCTIONS = ("SQRT",)
 class Variant:
     """A card of a listing with an altered statement.
 
-    ``card`` is the number of the card, from 1, and ``place`` its name, such as ``147+1``.  ``how`` is the kind of the
-    alteration: ``number``, ``name``, ``operator``, ``constant``, ``character``, ``format`` or ``card``.  ``was`` and
-    ``reads`` are the statement before and after the alteration, without blanks.  ``reads`` is empty if the card is left
-    out.
+    ``card`` is the number of the card, from 1, and ``place`` is its name, such as ``147+1``.  ``how`` is the kind of
+    the alteration: ``number``, ``name``, ``operator``, ``constant``, ``character``, ``format`` or ``card``.  ``was``
+    and ``reads`` are the statement before and after the alteration, without blanks.  ``reads`` is empty if the card is
+    left out.
     """
 
     program: str
@@ -162,7 +162,10 @@ def _steps(number: str) -> Iterator[str]:
 
 
 def _alike(name: str) -> set[str]:
-    """Return the names in the listings that differ from ``name`` in one character; none if ``name`` is one letter."""
+    """Return the names in the listings that differ from ``name`` in one character.
+
+    Return no names if ``name`` is one letter.
+    """
     if len(name) < 2:
         return set()
     return {known for known in _names() if len(known) == len(name) and sum(map(str.__ne__, name, known)) == 1}

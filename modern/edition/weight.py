@@ -7,8 +7,8 @@ A variant is a listing with one altered token (:mod:`modern.edition.variants`). 
 ``print``     an example of chapter 6 is no longer reproduced.  Program 1 runs in the state that produced the examples,
               and programs 2 and 3 run on the printed intermediate decks.  If only the listing of program 1 has the
               card, the listing runs, and its output must differ from the printed result in more than its order.
-``machine``   the variant gives other results than the listing for a data deck for which an independent second
-              restoration of the listing confirmed the results
+``machine``   the variant and the listing give different results for a data deck.  An independent second restoration of
+              the listing confirmed the listing's results for all these decks.
 ``equation``  the card computes a formula of chapter 3 (:data:`EQUATIONS`, compiled by hand)
 ``sibling``   at least two other cards of the listings have the form of the card (:func:`alike`), and the variant has a
               form that no card has

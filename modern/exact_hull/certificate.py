@@ -7,12 +7,13 @@
 2. Every facet's plane is in lowest terms, occurs once and contains the vertices of the facet.  No point is outside any
    plane.  The vertices in a plane are exactly those of its facet.  A point that is not a vertex lies in some plane if
    and only if its class is boundary.
-3. Each vertex lies in enough facet planes to be their only common point: in space three with independent normals, in a
-   plane two.  Therefore it does not lie between two other points.
+3. Each vertex lies in enough facet planes to be their only common point.  In space, three of these planes have
+   independent normals.  In a plane, each vertex lies in two of them.  Therefore it does not lie between two other
+   points.
 4. The facets form a closed surface.  In space, every polygon turns left at every vertex, seen from outside, and goes
-   around once; every directed edge occurs once and so does its reverse; V - E + F = 2.  In a plane, the edges are those
-   of the polygon, which satisfies the same conditions.  On a line, the facets are the two ends, with planes at right
-   angles to the line.
+   around once.  Every directed edge of the polygons occurs once, and its reverse also occurs once.  The numbers of
+   vertices, edges and facets satisfy V - E + F = 2.  In a plane, the edges are those of the polygon, which satisfies
+   the same conditions.  On a line, the facets are the two ends, with planes at right angles to the line.
 
 Evaluating every plane at every point takes too long for many points and facets.  If there are at least MANY pairs of a
 plane and a point, the convexity of a polyhedron is proved from its edges, and each point is evaluated in the plane of

@@ -70,16 +70,19 @@ _STEPS = 64
 
 
 class Undecided(Exception):
-    """Raised if float64 is not precise enough to find an inner point or ray; the caller then evaluates every plane."""
+    """Raised if float64 is not precise enough to find an inner point or ray.
+
+    The caller then evaluates every plane at every point.
+    """
 
 
 @dataclass(frozen=True, slots=True)
 class Cones:
     """The polygons split into triangles, and for each triangle the cone from the inner point o through it.
 
-    For each of the t triangles, ``corners`` (t, 3) has the indices of its corners, ``facet`` (t) the facet that it
-    belongs to, and ``beyond`` (t, 3) the neighbouring triangle at each edge.  ``walls`` (t, 3, 3) has, for each edge of
-    each triangle, the normal of the plane through o and the edge, which points towards the inside of the cone.
+    For each of the t triangles, ``corners`` (t, 3) has the indices of its corners, ``facet`` (t) has the facet that it
+    belongs to, and ``beyond`` (t, 3) has the neighbouring triangle at each edge.  ``walls`` (t, 3, 3) has, for each
+    edge of each triangle, the normal of the plane through o and the edge, which points towards the inside of the cone.
     """
 
     corners: Ints

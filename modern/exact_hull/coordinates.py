@@ -40,10 +40,10 @@ _SMALL_BITS = 48
 class Images:
     """The points moved and scaled into a unit box and rounded to float64, for quick tests with proved error bounds.
 
-    A point x has the image u with x = c + s u: ``places`` holds u, ``low`` holds c, and ``shifts`` the exponents of s.
-    On each axis, c is the least coordinate, and s a power of two greater than the difference between the largest and
-    the least coordinate.  u is from 0 to 1 and has an error of at most 2**-54, because only the difference x - c is
-    rounded.
+    A point x has the image u with x = c + s u: ``places`` holds u, ``low`` holds c, and ``shifts`` holds the exponents
+    of s.  On each axis, c is the least coordinate, and s is a power of two greater than the difference between the
+    largest and the least coordinate.  u is from 0 to 1 and has an error of at most 2**-54, because only the difference
+    x - c is rounded.
     """
 
     low: tuple[int, ...]
@@ -109,7 +109,10 @@ class Coordinates(LazyMembers[IntPoint]):
         return _integers(self.numbers[indices], self.scale)
 
     def floats(self) -> Floats:
-        """Return the points as the nearest doubles, or infinities beyond the largest one; shape (n, 3)."""
+        """Return an array (n, 3) of the doubles nearest to the coordinates.
+
+        A coordinate beyond the largest double becomes infinite.
+        """
         if self.kind == "f":
             return np.array(self.numbers)
         if self.kind == "i" and self.scale & (self.scale - 1) == 0 and self.scale < 2**_HUGE:

@@ -31,14 +31,14 @@ def value(plane: Plane, p: IntPoint) -> int:
 
 
 def plane_at(normal: IntPoint, p: IntPoint) -> Plane:
-    """Return the plane through ``p`` with the given normal; its numbers may have a common divisor."""
+    """Return the plane through ``p`` with the given normal.  The numbers of the plane may have a common divisor."""
     return (*normal, -(normal[0] * p[0] + normal[1] * p[1] + normal[2] * p[2]))
 
 
 def plane_through(p: IntPoint, q: IntPoint, r: IntPoint) -> Plane:
     """Return the plane through three points that are counterclockwise seen from its positive side.
 
-    Its numbers may have a common divisor.
+    The numbers of the plane may have a common divisor.
     """
     # Written out, because the construction calls it for every triangle.
     x, y, z = p

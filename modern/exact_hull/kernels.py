@@ -5,12 +5,12 @@ point that is not yet in the hull waits in the linked list of a triangle that it
 point of a list is inserted next.  When a triangle is removed, its points are compared with the new triangles.
 
 Signs are exact.  With h = 2**-53 a difference of doubles has a relative error of at most h.  A component of the vector
-product u x v, such as u2 v3 - u3 v2, has an error of at most 4h q, where q = |u2 v3| + |u3 v2|.  Its product with the
-difference d from a corner, at most 1, has an error of at most 6h q, and the additions round by less than 3h times the
-sum of all q.  The total is below 9h times this sum, and underflow adds less than 2**-1000.  A value beyond BOUND = 16h
-times the sum, plus 2**-1000, has the true sign.  All others are computed as expansions: sums of doubles that do not
-overlap (Shewchuk, Discrete & Computational Geometry 18 (1997), 305-363, theorem 10).  These are exact unless numbers
-underflow, which the caller excludes.
+product u x v, such as u2 v3 - u3 v2, has an error of at most 4h q, where q = |u2 v3| + |u3 v2|.  The product of this
+component with the difference d from a corner, which is at most 1, has an error of at most 6h q.  The additions round by
+less than 3h times the sum of all q.  The total is below 9h times this sum, and underflow adds less than 2**-1000.  A
+value beyond BOUND = 16h times the sum, plus 2**-1000, has the true sign.  All others are computed as expansions: sums
+of doubles that do not overlap (Shewchuk, Discrete & Computational Geometry 18 (1997), 305-363, theorem 10).  Expansions
+are exact unless numbers underflow, which the caller excludes.
 """
 
 from typing import Any, NamedTuple
@@ -211,7 +211,10 @@ def value(known: Any, slot: int, p: int) -> float:
 
 
 def wait(known: Any, slot: int, p: int, height: float) -> None:
-    """Add a point to the list of a triangle that it is outside of; ``height`` is the plane's value at the point."""
+    """Add a point to the list of a triangle that it is outside of.
+
+    ``height`` is the value of the triangle's plane at the point.
+    """
     known.following[p] = known.first[slot]
     known.first[slot] = p
     if height > known.height[slot]:

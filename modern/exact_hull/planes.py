@@ -1,20 +1,21 @@
-"""Exact signs of planes at points: floating point if its error bound decides, otherwise integers.
+"""Compute exact signs of planes at points, in floating point if its error bound decides, otherwise in integers.
 
 The construction and the proof use these functions.  The proof computes its planes again, from its own data.
 
 The floating-point filter.  Let c be the corner of the bounding box of the points, and s for each axis a power of two
 greater than the side of the box.  The image of x is (x - c) / s, from 0 to 1.  A normal's image is (A sx, B sy, C sz) /
 w, where w is the power of two that makes the largest of them at most 1.  With e = 2**-54 all images have an error of at
-most e (the nearest float64 of the exact quotient; dividing by a power of two is exact).
+most e: each image is the float64 nearest to the exact quotient.  Dividing by a power of two is exact.
 
 A difference d of images is below 1 in absolute value and has an error of at most 3e: e for each image and e for
 rounding.  The value of a plane is N . (x - p) with a corner p.  Each of its three products has an error of 3e + e + e =
-5e, and all three together 15e.  The additions, of sums below 2 and below 4, round by 2e and 4e.  The total is 21e.
+5e, and all three together have an error of 15e.  The additions, of sums below 2 and below 4, round by 2e and 4e.  The
+total is 21e.
 
 If many points are compared with many planes, the value is N . x + D with D = -N . p.  Each product has an error of 3e,
-and the three together 9e.  D is below 3 in absolute value.  Its three products too have errors of 9e together, and its
-two additions round by 2e each.  The additions to N . x, in any order and with or without fused products, have partial
-sums below 8 and round by at most 8e each, together 24e.  The total is 46e.
+and the three together have an error of 9e.  D is below 3 in absolute value.  The three products of D also have errors
+of 9e together, and the two additions of D round by 2e each.  The additions to N . x, in any order and with or without
+fused products, have partial sums below 8 and round by at most 8e each, together 24e.  The total is 46e.
 
 Products of two errors and underflow add less than e.  All of this is below BOUND = 2**-47 = 128e.  A value beyond the
 bound has the true sign.  All others, and NaN, are computed in integers.
@@ -80,7 +81,9 @@ def long_signs(normals: Ints, differences: Ints) -> Ints:
 
 @dataclass
 class Planes:
-    """Planes as integers, shape (m, 4), each with the index of a point in it (``bases``); the points span space.
+    """Planes as integers, with the points at which they are evaluated.  The points span space.
+
+    ``table`` (m, 4) has the integers A, B, C and D of each plane, and ``bases`` has the index of a point in each plane.
 
     ``evaluations`` and ``in_integers`` count the signs computed, and those that the filter did not determine.
     """
@@ -186,7 +189,8 @@ class Planes:
     def near(self, indices: Ints) -> Iterator[tuple[Ints, Ints, Ints]]:
         """Compare each point with all planes, and yield the pairs whose sign the filter does not prove to be -1.
 
-        Each block holds positions in ``indices``, planes, and exact signs (0, 1 or -1) of the planes at these points.
+        The pairs are yielded in blocks of three arrays: positions in ``indices``, planes, and the exact signs (0, 1 or
+        -1) of the planes at these points.
         """
         count, whole = len(self.table), self.whole
         if whole is None:

@@ -48,9 +48,9 @@ def check_convex(
 class Polygons:
     """The directed sides of all polygons of a surface, as arrays with one entry for each side, facet after facet.
 
-    For each side, ``facet`` has the facet to which it belongs, ``corner`` the point at which it begins, ``next`` the
-    following side of the same facet, and ``twin`` the side of the neighbouring facet that is the same edge.  For each
-    facet, ``first`` has its first side and ``count`` the number of its sides.
+    For each side, ``facet`` has the facet to which it belongs, ``corner`` has the point at which it begins, ``next``
+    has the following side of the same facet, and ``twin`` has the side of the neighbouring facet that is the same edge.
+    For each facet, ``first`` has its first side and ``count`` the number of its sides.
     """
 
     corner: Ints

@@ -145,12 +145,12 @@ class _Growing:
     """The surface while it grows, as arrays of triangles, and the points that wait outside it.
 
     A removed triangle keeps its index.  For each of the T triangles, ``corners`` (T, 3) has the corners,
-    counterclockwise seen from outside, ``neighbours`` (T, 3) the triangle beyond each edge, ``images`` (T, 4) the
-    plane, scaled so that A, B and C are at most 1 in absolute value, and ``bounds`` a bound for the error of this
-    plane's values.  ``waiting`` lists the points outside the surface.  For each of them, ``home`` has a triangle that
-    the point sees, and ``height`` the value of this triangle's plane at the point.  ``near`` is a list of arrays of two
-    rows: points that lay on the surface when they were last compared with triangles, and for each a triangle in whose
-    plane it lay.
+    counterclockwise seen from outside, and ``neighbours`` (T, 3) has the triangle beyond each edge.  ``images`` (T, 4)
+    has the plane of each triangle, scaled so that A, B and C are at most 1 in absolute value, and ``bounds`` has a
+    bound for the error of this plane's values.  ``waiting`` lists the points outside the surface.  For each of them,
+    ``home`` has a triangle that the point sees, and ``height`` has the value of this triangle's plane at the point.
+    ``near`` is a list of arrays of two rows: points that lay on the surface when they were last compared with
+    triangles, and for each a triangle in whose plane it lay.
     """
 
     def __init__(self, points: Coordinates, exact: bool, start: list[int]) -> None:
@@ -232,7 +232,7 @@ class _Growing:
         """Compare each waiting point only with the new triangles of the inserted point that removed its triangle.
 
         For each of ``points``, ``remover`` has the rank of the inserted point that removed its triangle.  For each
-        rank, ``starts`` has the first triangle that the inserted point made, and ``counts`` the number of its
+        rank, ``starts`` has the first triangle that the inserted point made, and ``counts`` has the number of its
         triangles.  The result has the same form as that of ``_tried_against_all``.
         """
         # Make one row for each pair of a point and a new triangle of the point that removed its triangle.
@@ -249,7 +249,10 @@ class _Growing:
         return self._outside(points, chosen, largest)
 
     def round(self) -> bool:
-        """Insert as many waiting points as do not interfere.  Return False if the surface is no longer closed."""
+        """Insert several waiting points that see neither the same triangles nor neighbouring ones.
+
+        Return False if the surface is no longer closed.
+        """
         nominated, at = self._nominated()
         rank, visible, edge_rank, edge_from, edge = self._regions(nominated, at)
         beyond = self.neighbours[edge_from, edge]
@@ -303,7 +306,8 @@ class _Growing:
     def _regions(self, nominated: Ints, at: Ints) -> tuple[Ints, Ints, Ints, Ints, Ints]:
         """Return the triangles that each nominated point is outside of, and the edges around them, its horizon.
 
-        The result has pairs (rank, triangle) and triples (rank, triangle, edge); rank is an index into ``nominated``.
+        The result has pairs (rank, triangle) and triples (rank, triangle, edge).  The rank is an index into
+        ``nominated``.
         """
         # A pair is encoded as the integer rank * size + triangle, so that sets of pairs are sorted arrays.
         size = self.made

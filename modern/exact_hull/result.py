@@ -19,7 +19,7 @@ class CertificateError(Exception):
 
 
 def require(condition: bool, message: str, *values: object) -> None:
-    """Raise CertificateError if the condition is false; ``values`` are inserted into the message only then."""
+    """Raise CertificateError if the condition is false.  ``values`` are inserted into the message only in this case."""
     if not condition:
         raise CertificateError(message.format(*values))
 
@@ -30,7 +30,8 @@ class Facet:
 
     plane: (A, B, C, D) without a common divisor.  A x + B y + C z + D is 0 on the facet and < 0 at every other point of
         the hull, for *scaled* integer coordinates (x, y, z).  For an edge of a polygon it is the plane through the edge
-        at right angles to the plane of the polygon; for an end of a segment the plane at right angles to the segment.
+        at right angles to the plane of the polygon.  For an end of a segment it is the plane through the end at right
+        angles to the segment.
     polygon: indices of vertices, beginning with the smallest one.  A face lists them counterclockwise seen from
         outside, an edge has its two ends, and an end of a segment one vertex.
     """
@@ -42,7 +43,7 @@ class Facet:
 class Facets(LazyTuple[Facet]):
     """The facets of a hull as arrays.  An instance equals the tuple of the facets, which are made on access.
 
-    ``planes`` (m, 4) are Python integers. ``corners`` has the corners of all polygons in a row, and ``counts`` the
+    ``planes`` (m, 4) are Python integers. ``corners`` has the corners of all polygons in a row, and ``counts`` has the
     number of corners of each polygon.
     """
 
@@ -104,9 +105,9 @@ class ExactHull:
     dimension: 0 for a point, 1 for a segment, 2 for a polygon, 3 for a polyhedron.
     scale: the least positive integer whose product with every coordinate is an integer.
     scaled: the coordinates times ``scale``, as integers that are made on access (``Coordinates``), or as a tuple.
-    vertices, boundary, inside: each point belongs to exactly one of these, unless it is a duplicate, which its first
-        occurrence represents.  ``boundary`` has the points on the relative boundary that are not vertices, ``inside``
-        those in the relative interior (for a polygon within its plane).  All are sorted.
+    vertices, boundary, inside: each point belongs to exactly one of these, except a duplicate, which belongs to none.
+        ``boundary`` has the points on the relative boundary that are not vertices, and ``inside`` has the points in the
+        relative interior (for a polygon, the interior within its plane).  All three are sorted.
     duplicates: pairs of a point and the first point with the same coordinates, sorted.
     plane: for a polygon only, its plane without a common divisor, with the first nonzero number of A, B, C positive.
     facets: the facets sorted by plane, as a tuple or as ``Facets``.  The hull of a single point has none.

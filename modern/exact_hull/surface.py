@@ -1,16 +1,16 @@
 """Construct an exact polyhedron by inserting points one at a time into a closed convex surface of triangles.
 
-The algorithm is the randomised insertion of Clarkson and Shor (Discrete & Computational Geometry 4 (1989), section 3),
-in the variant in which every point that waits outside remembers *one* triangle that it sees.  All signs are exact.
+The algorithm is the randomised insertion of Clarkson and Shor (Discrete & Computational Geometry 4 (1989), section 3).
+In the variant used here, every point that waits outside remembers *one* triangle that it sees.  All signs are exact.
 
 A point "sees" a triangle if it is strictly outside its plane.  A triangle whose plane contains the point stays.
 Therefore a point sees either all triangles of a face or none of them.  The seen triangles are those that the point
 would also see if it moved slightly towards the inside.  They form a disc, whose border (the horizon) is one simple
 cycle.  No edge of the horizon is in line with the new point, since otherwise the plane of the seen triangle at that
 edge would contain the point.  So no triangle without area arises.  Triangles may share a plane, and a former corner may
-end up inside a face or an edge; ``facets.faces`` merges such triangles at the end.
+end up inside a face or an edge.  ``facets.faces`` merges such triangles at the end.
 
-Signs are first computed with the filter of ``planes``; a sign that it does not decide is computed in integers.
+Signs are first computed with the filter of ``planes``.  A sign that the filter does not decide is computed in integers.
 """
 
 from collections.abc import Sequence
@@ -39,8 +39,9 @@ class Surface:
     """The surface while it grows, as parallel lists indexed by triangle.  A removed triangle keeps its index.
 
     Corners are counterclockwise seen from outside. ``neighbours[t][k]`` is the triangle beyond edge k of triangle t.
-    ``waiting`` has the points waiting outside each triangle, and ``home`` the triangle of each point, or -1. ``mark``
-    encodes which point last tested each triangle, and whether the point saw it (see ``_visible``).
+    ``waiting`` has the points waiting outside each triangle, and ``home`` has the triangle outside of which each point
+    waits, or -1. ``mark`` encodes which point last tested each triangle, and whether the point saw it (see
+    ``_visible``).
     """
 
     def __init__(self, points: Coordinates, simplex: Sequence[int]) -> None:

@@ -6,15 +6,15 @@ How to add a format in which hulls are written:
 
 1. Write ``modern/formats/NAME.py`` with a function ``write(mesh, digits)`` that returns the text of the file
    (``off.py`` is a short example).
-2. Add NAME to ``MESHES`` below.  ``export --format``, its help and ``Hull.save`` then know the format; NAME is also
+2. Add NAME to ``MESHES`` below.  ``export --format``, its help and ``Hull.save`` then know the format.  NAME is also
    the extension of the files.
 3. Formats in ``MESHES`` are also read, so follow the two recipes below, too.  For a format that is only written, add
    NAME to ``HULLS`` instead, and a case to ``export_text`` in ``export.py``.
 
 How to add a format from which points are read:
 
-1. Write the reader in ``modern/formats/NAME.py``.  It returns the points as decimal text, and the position of each
-   point in the file (for example its line).
+1. Write the reader in ``modern/formats/NAME.py``.  The reader returns the points as decimal text, and the position of
+   each point in the file (for example its line).
 2. Add NAME to ``POINTS`` below.
 3. In ``points.py`` extend ``recognise`` so that it detects the beginning of such a file, and call the reader in
    ``parse_input``.  For a binary format extend ``_binary_kind`` and ``parse_bytes`` instead.  Every command that
@@ -31,8 +31,8 @@ How to add a format from which faces are read (for ``hidden-line``, ``appel-will
 
 A format of voxels belongs to ``modern/digital/volumes.py`` (``nrrd.py`` there is an example).
 
-Tests: ``tests/modern/formats/test_export.py`` reads written files back with separate readers; ``test_points.py`` needs
-a case for each kind of valid file and for each way in which a file can be invalid; ``tests/modern/cli/
+Tests: ``tests/modern/formats/test_export.py`` reads written files back with separate readers.  ``test_points.py`` needs
+a case for each kind of valid file and for each way in which a file can be invalid.  ``tests/modern/cli/
 test_fuzz_readers.py`` damages files at random.  Documentation: ``docs/reference/files.md``.
 """
 

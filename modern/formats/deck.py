@@ -1,9 +1,9 @@
 """Decks of cards with points, the input of Butler's hull programs: write them, check them, and read their points.
 
 A data set is a card with N, the number of points, in columns 1-2, followed by N cards with x, y, z in columns 1-14,
-15-28, 29-42 (thesis p. 58-59; its data sheet gives columns 29 to 52 to z, but the FORMAT reads 29 to 42).  A deck may
-hold several data sets.  In a deck for programs that were changed to use a tolerance e (the layer ``epsilon`` of the
-edition), the first card also holds e in columns 3-16 (OPEN-QUESTIONS 28).
+15-28, 29-42 (thesis p. 58-59).  The data sheet of the thesis gives columns 29 to 52 to z, but the FORMAT reads columns
+29 to 42.  A deck may hold several data sets.  In a deck for programs that were changed to use a tolerance e (the layer
+``epsilon`` of the edition), the first card also holds e in columns 3-16 (OPEN-QUESTIONS 28).
 """
 
 from collections.abc import Iterable, Sequence
@@ -61,7 +61,10 @@ class CheckedDeck:
     warnings: tuple[DeckWarning, ...]
 
     def deck(self, index: int) -> Deck:
-        """Return the data set with this index as a deck.  Its cards keep their numbers."""
+        """Return the data set with this index as a deck.
+
+        The cards keep the numbers that they have in the whole deck.
+        """
         return Deck(self.source, self.sets[index].cards)
 
 
@@ -72,8 +75,8 @@ class TooManyDigits(ArgumentError):
 def coordinate_field(text: str, truncate: bool = False) -> str:
     """Return a decimal number as the 14 columns of a field E14.8, such as ``+.20000000E+01``.
 
-    If ``truncate`` is true, digits after the eighth significant digit are dropped, otherwise they raise TooManyDigits.
-    Raise ValueError if the text is not a decimal number, or if its exponent is outside -99 to 99.
+    If ``truncate`` is true, digits after the eighth significant digit are dropped.  If it is false, such digits raise
+    TooManyDigits.  Raise ValueError if the text is not a decimal number, or if its exponent is outside -99 to 99.
     """
     minus, whole, fraction, exponent = split_decimal(text.strip())
     digits = (whole + fraction).lstrip("0")
@@ -242,7 +245,7 @@ def _interval(deck: Deck, card: Card, rules: Rules, warnings: list[DeckWarning])
 
 
 def _point(deck: Deck, card: Card, rules: Rules, warnings: list[DeckWarning]) -> tuple[tuple[int, int], ...]:
-    """Check the card of a point.  Return mantissa and exponent of its three numbers; the exponent of a zero is 0."""
+    """Check the card of a point.  Return mantissa and exponent of its three numbers.  The exponent of a zero is 0."""
     numbers = []
     for axis, (first, columns) in zip("xyz", _fields(card), strict=True):
         try:

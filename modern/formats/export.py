@@ -1,8 +1,8 @@
 """Export a hull to other programs, as text in any of the formats or as a ``trimesh.Trimesh``.
 
 OFF, OBJ and PLY preserve the faces as polygons.  STL splits the faces into triangles.  JSON has all data of a hull.
-The vertices of a mesh are those of ``Hull.vertices``, in that order; only JSON also contains boundary and inside
-points.
+The vertices of a mesh are those of ``Hull.vertices``, in that order.  Only JSON also contains the boundary and inside
+points of the hull.
 """
 
 from importlib import import_module
@@ -27,7 +27,10 @@ def export_text(hull: Hull, form: str, digits: int | None = None) -> str:
 
 
 def mesh_text(surface: Mesh, form: str, digits: int | None = None) -> str:
-    """Return a surface as the text of a file in one of the formats ``MESHES``; ``digits`` is as in ``export_text``."""
+    """Return a surface as the text of a file in one of the formats ``MESHES``.
+
+    ``digits`` has the same meaning as in ``export_text``.
+    """
     if form not in MESHES:
         raise ExportError(f"{quoted(form)} is not a mesh format; the formats are {', '.join(MESHES)}")
     text: str = import_module(f"modern.formats.{form}").write(surface, digits)

@@ -1,7 +1,7 @@
 """Write a hull as HTML: a self-contained page on which the reader can rotate it.
 
-The template ``hull.html`` contains the page.  It responds to dragging, the arrow keys, the mouse wheel, +, - and 0.
-Without JavaScript it shows a notice and a table of the exact vertices.
+The template ``hull.html`` contains the page.  The page responds to dragging, the arrow keys, the mouse wheel, +, - and
+0.  Without JavaScript it shows a notice and a table of the exact vertices.
 """
 
 import json

@@ -1,8 +1,9 @@
 """Write and read the Wavefront OBJ format, which preserves polygons and the decimal text of coordinates.
 
 A polyhedron is written with its faces (``f``), a polygon with one face, a segment as a line (``l``), a point as ``p``.
-The readers ignore anything after the x, y and z of a vertex (``v``), such as a weight or a colour.  A face numbers its
-vertices from 1, or from -1 backwards from the last vertex before the face; anything after a slash is ignored.
+The readers ignore anything after the x, y and z of a vertex (``v``), such as a weight or a colour.  A face names its
+vertices by their numbers, counted from 1, or by negative numbers, counted backwards from -1, which is the last vertex
+before the face.  The readers ignore anything after a slash in a face.
 """
 
 import re

@@ -21,8 +21,8 @@ def parse_off(text: str, source: str) -> FileMesh:
     """Return the points and faces of an OFF file from its text.
 
     The heading OFF and the number of edges are optional, and colours after a face are ignored.  Raise FileError, with
-    line and column, for other kinds of OFF (``COFF``, ``OFF BINARY``), a vertex that is not three decimal numbers, a
-    face that names a vertex not in the file, and too few or too many lines.
+    line and column, for other kinds of OFF (``COFF``, ``OFF BINARY``), for a vertex that is not three decimal numbers,
+    for a face that names a vertex not in the file, and for too few or too many lines.
     """
     lines = token_lines(text)
     last = last_line(text)

@@ -1,9 +1,9 @@
 """Write and read PLY (Turk, "The PLY Polygon File Format", 1994).  Polygons and decimal text are preserved.
 
 Written files are ASCII.  A polyhedron is written with its faces, a polygon with one face, a segment as an element
-``edge``, a point as one vertex.  The text of the coordinates is exact. They are declared ``double``, so other
-readers may round them.  The reader returns the vertices and faces of ASCII and binary files of either byte order.  It
-rejects triangle strips if faces are needed.
+``edge``, a point as one vertex.  The text of the coordinates is exact.  The coordinates are declared ``double``, so
+other readers may round them.  The reader returns the vertices and faces of ASCII and binary files of either byte order.
+The reader rejects triangle strips if faces are needed.
 """
 
 import math

@@ -76,8 +76,8 @@ def parse_input(text: str, source: str) -> Input:
 def parse_mesh(data: bytes, source: str) -> FileMesh:
     """Return the surface in a file, which may have no faces.  Raise FileError if it is not OFF, OBJ, PLY or STL.
 
-    The readers do not check that the faces form a closed surface.  Equal corners of an STL file are one point; every
-    vertex of OFF, OBJ and PLY is a separate point.
+    The readers do not check that the faces form a closed surface.  Equal corners of an STL file are one point.  In OFF,
+    OBJ and PLY files every vertex is a separate point.
     """
     kind = surface_kind(data, source)
     if not kind:
@@ -108,8 +108,8 @@ def deck_or_points(data: bytes, source: str) -> str:
     """Return the format of a file of points, or "deck" if it is not clearly one of the other formats.
 
     In the second case the reader of decks reads the file next and reports any error in it.  A text whose first line has
-    several words is a list only if they are three numbers, because the first card of a deck may hold two: the number of
-    points N and a tolerance e.
+    several words is a list only if these words are three numbers, because the first card of a deck may hold two
+    numbers: the number of points N and a tolerance e.
     """
     try:
         kind = kind_of(data, source)
@@ -129,10 +129,10 @@ def _binary_kind(data: bytes) -> str:
 def recognise(text: str, source: str) -> str:
     """Return the format of a text, a key of ``POINTS``, from its first line that is not blank or a comment.
 
-    A word that ends with OFF begins an OFF file, ``solid`` an STL file, a brace or bracket a JSON file, ``v`` or
-    another keyword of the format an OBJ file.  A comma or semicolon indicates a list, a single integer the first card
-    of a deck.  Otherwise the extension of the file decides, and several words separated by blanks or tabs are a list.
-    Raise FileError if none of this applies.
+    A word that ends with OFF begins an OFF file, ``solid`` begins an STL file, a brace or bracket begins a JSON file,
+    and ``v`` or another keyword of the format begins an OBJ file.  A comma or semicolon indicates a list, and a single
+    integer indicates the first card of a deck.  Otherwise the extension of the file decides, and several words
+    separated by blanks or tabs are a list.  Raise FileError if none of this applies.
     """
     lines = ((line_number, row.strip()) for line_number, row in enumerate(text.splitlines(), 1))
     line, first = next(((n, row) for n, row in lines if row and not row.startswith("#")), (0, ""))

@@ -230,7 +230,7 @@ def _plain(value: Decimal) -> str:
 def _depth(points: Sequence[IntVector], normal: IntVector, base: int, indices: Sequence[int]) -> int:
     """Return the largest squared distance of points from a plane, multiplied by |normal|^2, which makes it an integer.
 
-    The plane passes through the point ``base``; ``indices`` are those of the points to be measured.
+    ``base`` is the index of a point in the plane, and ``indices`` are the indices of the points to be measured.
     """
     level = dot(normal, points[base])
     return max(abs(level - dot(normal, points[index])) for index in indices) ** 2

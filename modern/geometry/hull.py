@@ -96,7 +96,7 @@ class PointTexts(LazyMembers[tuple[str, str, str]]):
 
 
 class LazyFaces(LazyTuple["Face"]):
-    """Faces of a hull that are computed on first access.  Their polygons are available at once."""
+    """Faces of a hull that are computed on first access.  Their polygons are available without this computation."""
 
     def __init__(self, polygons: Sequence[tuple[int, ...]], make: Callable[[], "Iterable[Face]"]) -> None:
         super().__init__(len(polygons), make)
@@ -116,8 +116,8 @@ class Face:
     points.  The line of a polygon is computed without one of the coordinates x, y, z, whose coefficient is 0 (thesis p.
     16-17).  ``lowest`` is the same equation in integers without a common divisor.  ``defining`` are the points MM, NN
     and KK (for a line MM and NN) from which the equation was computed.  ``polygon`` are the vertices on the plane in
-    cyclic order, counterclockwise seen from outside; a line has two.  ``on`` are the other input points on the plane or
-    line.
+    cyclic order, counterclockwise seen from outside.  A line has two vertices.  ``on`` are the other input points on
+    the plane or line.
     """
 
     coefficients: Coefficients
@@ -139,7 +139,7 @@ class Stage:
 
     number: j.
     added: the point that became a vertex.  For H_1 these are its initial points.
-    checked: the number of the equation that the point was found outside of, called NETC in the listing; 0 for H_1.
+    checked: the number of the equation that the point was found outside of (NETC in the listing), or 0 for H_1.
     outside: the number of equations that the added point is outside of.
     struck: the points inside H_j, which the procedure eliminates.
     equations: the defining points of each equation of H_j, in the order of the procedure's table of equations.
@@ -183,7 +183,8 @@ class Hull:
     duplicates: pairs of a point and the first point with the same coordinates.  The thesis requires distinct points,
         so duplicates are reported and otherwise ignored.
     plane: the plane of a polygon, as program 1 punches it.
-    lines: two equations for each line: for that of a segment, or for the three sides if the input is three points.
+    lines: two equations for each line: for the line of a segment, or for each of the three sides if the input is three
+        points.
     centre: for a polyhedron the inside point C, the mean of the points of H_1.
     statement: the program and statement number in Butler's listing at which the status was decided.
     corrected: identifiers of the modern corrections that changed a branch of the listing.

@@ -16,7 +16,7 @@ Triangle = tuple[int, int, int]
 
 
 class ExportError(EmulatorError):
-    """Raised if a file format cannot hold a hull or if it cannot be drawn; the message is one line."""
+    """Raised if a file format cannot hold a hull, or if a hull cannot be drawn.  The message is one line."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +50,7 @@ class Mesh:
         return tuple(lines)
 
     def edges(self) -> tuple[tuple[int, int], ...]:
-        """Return every edge once, smaller index first, sorted; a segment has one edge."""
+        """Return every edge once, with the smaller index first, in sorted order.  A segment has one edge."""
         if self.dimension == 1:
             return ((0, 1),)
         return tuple(sorted({(min(a, b), max(a, b)) for face in self.faces for a, b in sides(face)}))
@@ -67,7 +67,7 @@ class Mesh:
             yield a, b, c, d
 
     def squared_areas(self) -> tuple[Fraction, ...]:
-        """Return the square of each face's area.  The square is always rational; the area may not be."""
+        """Return the square of each face's area.  The square is always rational, but the area may be irrational."""
         points = self.numbers()
         normals = (area_vector(points, face) for face in self.faces)
         return tuple(dot(normal, normal) / 4 for normal in normals)

@@ -42,10 +42,10 @@ def split_decimal(text: str) -> tuple[bool, str, str, int]:
 
 
 def decimal(text: str) -> Exact:
-    """Return the value of a decimal string such as ``12``, ``-1.5`` or ``-.25E-3``; blanks around it are ignored.
+    """Return the value of a decimal string such as ``12``, ``-1.5`` or ``-.25E-3``.
 
-    Raise ValueError for other text, for more than 4000 digits and for an exponent beyond 9999.  The limits prevent a
-    typing error from using all of the memory.
+    Blanks around the string are ignored.  Raise ValueError for other text, for more than 4000 digits and for an
+    exponent beyond 9999.  The limits prevent a typing error from using all of the memory.
     """
     minus, whole, fraction, exponent = split_decimal(text)
     if len(whole) + len(fraction) > MAX_DIGITS:

@@ -5,11 +5,11 @@ These steps add a fifth paper, ``NAME``. Commands and the registers of statement
 1. ``modern/papers/NAME/``: the algorithm, over integers or fractions. ``__init__.py`` cites the paper and exports the
    entry point. If the print is wrong, implement the corrected step and keep the printed one as an option, as
    ``yau_srihari/printed.py`` does.
-2. ``transcripts/FOLDER/``, where FOLDER is NAME and the year, such as ``appel_will_1976`` (only the folder
-   ``kovalevsky_schulz`` has no year): ``witness.txt`` (the printed values exactly as the OCR text has them),
-   ``apparatus.toml`` (the emendations) and ``results.toml`` (which lines of the corrected print form one published
-   result). Add the source to ``fortran_src/SOURCES.toml``. A paper that prints no values, such as Yau and Srihari's,
-   skips steps 2 and 3.
+2. ``transcripts/FOLDER/``, where FOLDER is NAME and the year, such as ``appel_will_1976``. (Only the folder
+   ``kovalevsky_schulz`` has no year.) The folder holds three files: ``witness.txt`` has the printed values exactly as
+   the OCR text has them, ``apparatus.toml`` has the emendations, and ``results.toml`` tells which lines of the
+   corrected print form one published result. Add the source to ``fortran_src/SOURCES.toml``. A paper that prints no
+   values, such as Yau and Srihari's, skips steps 2 and 3.
 3. ``modern/papers/NAME/results.py``: the function ``produced``, which :data:`Lines` describes. Add a ``Paper`` to
    ``PAPERS`` in ``modern/claims/published.py``. ``hull1620 reproduce NAME`` then compares the results with the print.
 4. ``transcripts/statements/NAME.toml``: a row for each statement of the paper with its verdict, and the name in
@@ -17,10 +17,11 @@ These steps add a fifth paper, ``NAME``. Commands and the registers of statement
    ``modern/claims/NAME/``.
 5. ``modern/cli/NAME.py``: the command, with an entry in ``modern/cli/arguments.py``. For the completion in the shell,
    add NAME to ``DOCUMENTS`` and FOLDER to ``TEXTS`` in ``modern/cli/shared/arguments.py``.
-6. ``docs/papers/NAME.md`` with its line in ``docs/papers/index.md``; ``docs/statements/NAME.md`` with its line in
-   ``docs/statements.md``; the pictures of the paper's page in ``modern/publication/site/pages/papers.py``; the chapter
-   of the book in ``CHAPTERS``, and the authors in ``PERSONS``, of ``modern/publication/book/build.py``; a section on
-   the transcript in ``transcripts/README.md``.
+6. The documentation: write ``docs/papers/NAME.md`` with its line in ``docs/papers/index.md``, and
+   ``docs/statements/NAME.md`` with its line in ``docs/statements.md``. Add the pictures of the paper's page to
+   ``modern/publication/site/pages/papers.py``. Add the chapter of the book to ``CHAPTERS`` and the authors to
+   ``PERSONS``, both in ``modern/publication/book/build.py``. Add a section on the transcript to
+   ``transcripts/README.md``.
 
 Tests go into ``tests/modern/papers/``: ``test_NAME.py`` compares the algorithm with the exact hull or another
 independent method on random input, ``test_NAME_cli.py`` runs the command, and ``test_NAME_published.py`` tests

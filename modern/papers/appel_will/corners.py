@@ -60,12 +60,12 @@ def preprocess(points: Sequence[IntPoint], surfaces: Sequence[Surface], rule: Ru
     """Return the points to delete before the projections, chosen by a rule.
 
     An inside corner is a reentrant edge of the polyhedron, an outside corner an edge at which the polyhedron is convex.
-    ``any`` deletes each point on at least one inside corner. This is correct only for objects that the paper calls well
-    behaved (Fig. 15), which have at most three planes at each point. ``two`` deletes each point on at least two inside
-    corners and at most one outside corner (Fig. 16, 1). This is correct for every object, because a vertex of the hull
-    is on at least three outside corners. ``concave`` deletes each point that is on an inside corner and is also a
-    concave point of a surface (Fig. 16, 2). This is correct for every object too, because the angle of a surface at a
-    vertex of the hull is less than 180 degrees.
+    ``any`` deletes each point on at least one inside corner. This rule is correct only for objects that the paper calls
+    well behaved (Fig. 15), which have at most three planes at each point. ``two`` deletes each point on at least two
+    inside corners and at most one outside corner (Fig. 16, 1). This rule is correct for every object, because a vertex
+    of the hull is on at least three outside corners. ``concave`` deletes each point that is on an inside corner and is
+    also a concave point of a surface (Fig. 16, 2). This rule too is correct for every object, because the angle of a
+    surface at a vertex of the hull is less than 180 degrees.
 
     Raise MapError if the surfaces do not form a closed polyhedron, and ValueError for an unknown rule.
     """

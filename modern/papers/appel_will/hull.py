@@ -58,10 +58,10 @@ class Assembled:
 
     ``points`` are the input coordinates multiplied by ``scale``, as integers. ``duplicates`` has pairs of a point and
     the first point that is equal to it. ``preprocessing`` has the points deleted at inside corners, if a rule was
-    chosen, and ``deleted`` the points that the projections show to lie between two others. ``edges`` is the convex edge
-    list (the edges of the hull), and ``table`` the loop table. A polygon has one loop, which uses every edge once; a
-    segment or a point has no loop. ``surfaces`` is the topological map: the points of each loop. ``dimension`` is that
-    of the point set, from 0 to 3.
+    chosen, and ``deleted`` has the points that the projections show to lie between two others. ``edges`` is the convex
+    edge list (the edges of the hull), and ``table`` is the loop table. A polygon has one loop, which uses every edge
+    once. A segment or a point has no loop. ``surfaces`` is the topological map: the points of each loop. ``dimension``
+    is that of the point set, from 0 to 3.
     """
 
     points: tuple[IntPoint, ...]
@@ -117,8 +117,8 @@ def appel_will(points: Points, surfaces: Sequence[Surface] = (), method: Method 
     """Return the hull of at least one point by Appel and Will's method, in exact arithmetic.
 
     Coordinates are ints, Fractions, decimal strings, or floats, which have their exact binary values. ``surfaces``
-    lists the points around each surface of the polyhedron; only the rules for inside corners need it. Raise PointsError
-    for invalid points and MapError for invalid surfaces.
+    lists the points around each surface of the polyhedron. Only the rules for inside corners need the surfaces. Raise
+    PointsError for invalid points and MapError for invalid surfaces.
     """
     coordinates = read_points(points)
     scale, scaled = coordinates.scale, coordinates.all()

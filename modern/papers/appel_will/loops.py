@@ -1,8 +1,8 @@
 """Assemble convex edges into loops, the borders of faces (appendix, steps 1 to 10; Fig. 23).
 
 A line is a convex edge, an edge of the hull. Lines have the numbers L = 1, 2, 3 and so on. Line L has the ends LC1(L)
-and LC2(L), with LC1(L) < LC2(L). A loop that runs along the line from LC1(L) to LC2(L) has the entry L, and otherwise
-the entry -L.
+and LC2(L), with LC1(L) < LC2(L). A loop has the entry L if it runs along the line from LC1(L) to LC2(L), and the entry
+-L if it runs from LC2(L) to LC1(L).
 """
 
 from collections.abc import Collection, Iterator, Sequence
@@ -174,7 +174,7 @@ def _is_convex_plane(table: _Table, crossing: Intersection) -> bool:
 def _follow(table: _Table, crossing: Intersection) -> list[int] | None:
     """Return the entries of the loop that begins with two edges, or None if it does not close (steps 9 and 10).
 
-    The search ends after as many lines as there are edges, as the appendix advises.
+    The search gives up if the loop does not close within as many lines as the hull has edges, as the appendix advises.
     """
     normal, origin = _plane(table.points, crossing)
     entries = [*crossing.entries]

@@ -88,7 +88,7 @@ def solid_svg(
 
 
 def as_mesh(hull: Assembled, points: Sequence[Point]) -> Mesh:
-    """Convert the assembled hull to a mesh. Its points are in the order of ``hull.vertices``."""
+    """Convert the assembled hull to a mesh. The points of the mesh are in the order of ``hull.vertices``."""
     places = {index: place for place, index in enumerate(hull.vertices)}
     faces = tuple(tuple(places[index] for index in surface) for surface in hull.outward())
     return Mesh(hull.dimension, tuple(points[index] for index in hull.vertices), faces)

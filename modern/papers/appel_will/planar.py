@@ -49,7 +49,7 @@ def map_svg(surfaces: Sequence[Surface], edges: Sequence[Pair], title: str = "",
     """Return the planar map of a polyhedron or a polygon, with its points, lines and faces numbered, as SVG text.
 
     ``edges`` is the convex edge list, which gives the numbers of the lines. If there are more than ``MOST_LINES``
-    lines, none is numbered. ``width`` is in pixels; the default is 640, or 1000 for more than ``CROWD`` points.
+    lines, none is numbered. ``width`` is in pixels. The default is 640, or 1000 for more than ``CROWD`` points.
 
     Raise ExportError for a map without surfaces or with more than ``MOST`` points, and for a width out of range.
     """
@@ -94,10 +94,10 @@ def map_svg(surfaces: Sequence[Surface], edges: Sequence[Pair], title: str = "",
 
 
 def embedded(surfaces: Sequence[Surface], outer: int) -> dict[int, Place]:
-    """Return the position of each point of a planar map: on the unit circle for the points of the surface ``outer``,
-    otherwise inside.
+    """Return the position of each point of a planar map.
 
-    The first side of ``outer`` is at the bottom. Every line must be on two surfaces, which may run in either direction.
+    The points of the surface ``outer`` are on the unit circle, and all others are inside it. The first side of
+    ``outer`` is at the bottom. Every line must be on two surfaces, which may run in either direction.
     """
     border = surfaces[outer]
     count = len(border)

@@ -1,9 +1,9 @@
 """Find the edges of the hull: project all points parallel to the line through each pair of points, and test the images.
 
 The line through the pair projects to a point C. The star polygon test (section "Polygon star test") receives the other
-images relative to C as pairs of integers, none of them at C. It returns True if C is outside the star polygon of these
-images, that is, if C is a corner of the hull of the images and C. The pair is then an edge of the hull. Only the sense
-of rotation of the images about C matters, so an affine map of the images does not change the result.
+images relative to C as pairs of integers, none of them at C. The test returns True if C is outside the star polygon of
+these images, that is, if C is a corner of the hull of the images and C. The pair is then an edge of the hull. Only the
+sense of rotation of the images about C matters, so an affine map of the images does not change the result.
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -16,7 +16,10 @@ StarTest = Callable[[Sequence[Image]], bool]
 
 
 def vorticity(a: Image, b: Image) -> int:
-    """Return twice the area of the triangle C, a, b, positive if it runs counterclockwise (Fig. 8); C is the origin."""
+    """Return twice the area of the triangle C, a, b, where C is the origin.
+
+    The result is positive if the triangle runs counterclockwise (Fig. 8).
+    """
     return a[0] * b[1] - a[1] * b[0]
 
 
@@ -159,7 +162,7 @@ def convex_edges(points: Sequence[IntPoint], live: Iterable[int], outside: StarT
     """Test all pairs of the points with the indices ``live`` in order, and return the pairs that are edges of the hull.
 
     The points must be distinct. As soon as a pair is projected, all points on its line except the two ends are deleted.
-    Therefore only a pair of ends is tested. An edge at a point that is deleted later is not returned; only the star
+    Therefore only a pair of ends is tested. An edge at a point that is deleted later is not returned. Only the star
     polygon test as printed finds such edges.
     """
     remaining = dict.fromkeys(sorted(live))

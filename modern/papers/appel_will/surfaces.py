@@ -31,7 +31,7 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class Fates:
-    """What becomes of each surface of the given polyhedron on the hull (Fig. 4); surfaces are numbered from 0.
+    """What becomes of each surface of the given polyhedron on the hull (Fig. 4). Surfaces are numbered from 0.
 
     ``of`` has, for every given surface, the number of the hull's surface in whose plane it lies, or None if the given
     surface is deleted. ``unchanged`` has the numbers of the given surfaces that are surfaces of the hull too. ``added``
@@ -105,7 +105,7 @@ def lines(surfaces: Sequence[Surface]) -> tuple[Line, ...]:
 
 
 def _one_sense(surfaces: Sequence[Surface], surfaces_at: dict[frozenset[int], list[int]]) -> list[Surface]:
-    """Return the surfaces, some reversed, so that any two neighbours run along their common line in opposite
+    """Return the surfaces, some of them reversed, so that any two neighbours run along their common line in opposite
     directions.
     """
     oriented_so_far: dict[int, Surface] = {0: surfaces[0]}

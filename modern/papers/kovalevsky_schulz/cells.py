@@ -298,7 +298,10 @@ def _listed(items: Iterable[object]) -> str:
 
 
 def triangulation_size(triangles: int) -> Fraction:
-    """Return the number of integers in a triangulation, by formula (5). It has half as many vertices as triangles."""
+    """Return the number of integers in a triangulation, by formula (5).
+
+    The formula assumes half as many vertices as triangles.
+    """
     return (Fraction(3, 2) + 3) * triangles
 
 

@@ -4,8 +4,8 @@ Let P be a new point in the plane of a face. *Quadrangles* (Fig. 7): the face co
 this face and visible faces, together with P, form one new face in the same plane, instead of a triangle for each edge.
 The new face is merged with the old one. *Extended* (Fig. 8): the face itself is extended to P by a hull in its plane.
 
-There is one face for each plane. It is stored as the cycle of its vertices, without vertices that lie in line with two
-others. All arithmetic is in integers.
+There is one face for each plane. A face is stored as the cycle of its vertices, without vertices that lie in line with
+two others. All arithmetic is in integers.
 """
 
 from collections.abc import Iterable, Sequence

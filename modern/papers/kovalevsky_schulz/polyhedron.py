@@ -58,10 +58,10 @@ class Flat:
 class CurrentPolyhedron:
     """The polyhedron under construction, the paper's CP: numbered edges and triangles, changed in place.
 
-    ``points`` are all points that may become vertices, and ``shifted`` the same points relative to the lowest corner of
-    their bounding box. A face is visible from a point if the value of its plane at the point is at least ``least``.
-    ``ends`` has the start and the end of each edge. The face on the left of edge e is ``sides[e]``, and the face on its
-    right ``sides[-e]``. ``first_new`` is the number of the first face created in the last extension.
+    ``points`` are all points that may become vertices, and ``shifted`` are the same points relative to the lowest
+    corner of their bounding box. A face is visible from a point if the value of its plane at the point is at least
+    ``least``. ``ends`` has the start and the end of each edge. The face on the left of edge e is ``sides[e]``, and the
+    face on its right ``sides[-e]``. ``first_new`` is the number of the first face created in the last extension.
     """
 
     def __init__(self, points: Sequence[IntPoint], simplex: Sequence[int], coplanar: Coplanar) -> None:
@@ -147,7 +147,10 @@ class CurrentPolyhedron:
         return assembled(points, starts, ends, np.full(len(faces), 3), numbers)
 
     def _cone(self, top: int, boundary: Iterable[int]) -> None:
-        """Add a triangle from the vertex ``top`` to each edge of a boundary; an edge's sign gives its direction."""
+        """Add a triangle from the vertex ``top`` to each edge of a boundary.
+
+        The sign of an edge's number gives its direction.
+        """
         spokes: dict[int, int] = {}
         for edge in boundary:
             # Neighbouring triangles share the edge between top and their common boundary vertex. The edge is created
@@ -181,7 +184,7 @@ class CurrentPolyhedron:
 class Waiting:
     """The points still to be inserted, each with one face that is visible from it.
 
-    ``face`` has this face for each point, and ``lists`` the points for each face.
+    ``face`` has this face for each point, and ``lists`` has the points for each face.
     """
 
     def __init__(self, polyhedron: CurrentPolyhedron, numbers: Iterable[int]) -> None:
@@ -228,9 +231,9 @@ class Waiting:
 def convex_polyhedron(points: Iterable[Sequence[int]], coplanar: Coplanar = VISIBLE) -> CellList | Flat:
     """Return the hull of points with integer coordinates as triangles. The points are inserted in the given order.
 
-    ``coplanar`` determines how a face counts whose plane contains the new point: as ``visible``, which the paper's text
-    prefers, or as ``invisible``, which the printed number of 1404 triangles for a ball requires. Repeated points are
-    ignored. For points in one plane, which the paper does not treat, the result is ``Flat``, computed by
+    ``coplanar`` applies to a face whose plane contains the new point. Such a face counts as ``visible``, as the paper's
+    text prefers, or as ``invisible``, which reproduces the printed number of 1404 triangles for a ball. Repeated points
+    are ignored. For points in one plane, which the paper does not treat, the result is ``Flat``, computed by
     ``modern.exact_hull``.
 
     Raise ValueError if there are no points or ``coplanar`` is unknown.

@@ -2,8 +2,8 @@
 
 The paper does not define its bodies exactly. The following definitions reproduce its numbers: the ball of diameter 32
 is centred on a voxel, and the half-balls of Table 5 are centred on a corner of voxels. All hulls are hulls of the
-voxels' corners. The tables, and the 1404 triangles of the ball, result only if local corners are found by 6 neighbours
-and coplanar faces count as invisible, although the text prefers 26 neighbours and visible faces.
+voxels' corners. The tables and the 1404 triangles of the ball are reproduced only if local corners are found by 6
+neighbours and coplanar faces count as invisible. The paper's text prefers 26 neighbours and visible faces.
 """
 
 from collections.abc import Iterator, Sequence

@@ -1,8 +1,8 @@
 """Clip a scene at the near plane of a perspective: omit polyhedra on the eye's side of it, cut those that it crosses.
 
-The plane is perpendicular to the direction of view. Its distance from the eye is a fraction that differs from the
-requested distance by at most 1e-15 of it. The intersections of edges with this plane are exact, so a clipped polyhedron
-is convex again and has a face in the plane.
+The plane is perpendicular to the direction of view. The distance of the plane from the eye is a fraction. The relative
+difference between this fraction and the requested distance is at most 1e-15. The intersections of edges with this plane
+are exact, so a clipped polyhedron is convex again and has a face in the plane.
 """
 
 from collections.abc import Sequence

@@ -6,8 +6,8 @@ the rounding error, so no pair is lost. A superfluous pair costs only the time f
 The tables are those of formulas (2) and (3). By the paper's properties 1 to 4, they tell if two contours are apart, if
 one encloses the other, and which segments can intersect. The contour of V has the vertices
 P_i, and the contour of V' the vertices P_j, both clockwise. ``PL[j][i]`` tells on which side of the segment from P_i to
-P_(i+1) the vertex P_j lies, and ``LP[j][i]`` on which side of the segment from P_j to P_(j+1) the vertex P_i lies. 1 is
-the inner side, -1 the outer side, and 0 the line itself.
+P_(i+1) the vertex P_j lies. ``LP[j][i]`` tells on which side of the segment from P_j to P_(j+1) the vertex P_i lies.
+The value 1 stands for the inner side, -1 for the outer side, and 0 for the line itself.
 """
 
 from collections.abc import Iterator, Sequence
@@ -127,7 +127,7 @@ def tables(of_near: Values, of_far: Values) -> Tables:
     """Return the tables PL and LP of two contours V and V': the signs of their lines' equations at their vertices.
 
     ``of_near`` has the values of formula (1), the equation of a line, for the segments of V at the vertices of V', and
-    ``of_far`` those for the segments of V' at the vertices of V.
+    ``of_far`` has those for the segments of V' at the vertices of V.
     """
     signs = [[(f > 0) - (f < 0) for f in column] for column in of_near]
     return Tables(tuple(zip(*signs, strict=True)), tuple(tuple((f > 0) - (f < 0) for f in row) for row in of_far))

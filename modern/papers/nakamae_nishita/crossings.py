@@ -41,11 +41,12 @@ ENCLOSED = Passage((), True)
 
 
 def clipped(values: Values, first: int, last: int) -> Passage:
-    """Return the passage of a segment behind a contour. It is correct also if the segment meets the contour's vertices.
+    """Return the passage of a segment behind a contour.
 
-    ``values`` has the values of formula (1), a line's equation, for each segment of the contour (rows) at all points
-    (columns). ``first`` and ``last`` are the columns of the segment's ends. The segment is clipped to the inner side of
-    each line of the contour. Therefore only a part of positive length strictly within the contour is hidden.
+    The result is correct also if the segment meets the contour's vertices. ``values`` has the values of formula (1), a
+    line's equation, for each segment of the contour (rows) at all points (columns). ``first`` and ``last`` are the
+    columns of the segment's ends. The segment is clipped to the inner side of each line of the contour. Therefore only
+    a part of positive length strictly within the contour is hidden.
     """
     # The hidden part is from enter_up / enter_down to leave_up / leave_down, as fractions of the segment. Formula (1)
     # is linear along the segment, from a at P_A to b at P_B. The greatest entry and the least exit over all lines bound
@@ -84,8 +85,8 @@ def as_printed(
 ) -> Passage:
     """Return the passage by the paper's formulas, which miss an intersection at a vertex of the contour.
 
-    The parameters are those of ``clipped``; ``ends`` are the ends of the segment and ``contour`` the contour's
-    vertices.
+    ``values``, ``first`` and ``last`` are as in ``clipped``. ``ends`` are the ends of the segment, and ``contour`` has
+    the contour's vertices.
     """
     a, b, c = line_through(_flat(ends[0]), _flat(ends[1]))
     sides = [sign(a * x + b * y + c * w) for x, y, _, w in contour]

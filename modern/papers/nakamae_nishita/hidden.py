@@ -60,9 +60,9 @@ class Piece:
 class Passages:
     """The course of one segment behind all nearer polyhedra.
 
-    ``solid`` is the number of the polyhedron, and ``segment`` the number of the segment among those of the polyhedron.
-    ``behind`` has pairs of the number of a nearer polyhedron and the passage of the segment behind it. ``ghosts`` has
-    the parts of the segment that are ghost lines.
+    ``solid`` is the number of the polyhedron, and ``segment`` is the number of the segment among those of the
+    polyhedron. ``behind`` has pairs of the number of a nearer polyhedron and the passage of the segment behind it.
+    ``ghosts`` has the parts of the segment that are ghost lines.
     """
 
     solid: int
@@ -81,8 +81,8 @@ class Drawing:
     """The result of hidden line elimination: the visible and hidden pieces of all edges, and intermediate results.
 
     ``seconds`` are the times of the paper's three steps: creating the polyhedra, classifying edges, eliminating hidden
-    lines. ``cut`` names the polyhedra that the near plane clips, and ``behind`` the polyhedra on its near side, which
-    are omitted.
+    lines. ``cut`` names the polyhedra that the near plane clips, and ``behind`` names the polyhedra on its near side,
+    which are omitted.
     """
 
     observer: Observer
@@ -173,8 +173,8 @@ def _relations(
 ) -> Iterator[tuple[Relation, Values, Values]]:
     """Yield the pairs of polyhedra with overlapping contours.
 
-    Each pair is yielded with two tables of the values of formula (1), a line's equation: for the lines of each contour
-    at the points of the other polyhedron.
+    Each pair is yielded with two tables of values of formula (1), a line's equation. Each table has the values for the
+    lines of one of the two contours at the points of the other polyhedron.
     """
     contours = [item.images[: len(item.contour)] for item in solids]
     # By property 1 of section 3.2, contours do not overlap if all points of one are outside a segment of the other.

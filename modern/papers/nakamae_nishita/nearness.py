@@ -24,7 +24,7 @@ def by_formulas(v: Solid, w: Solid, pair: Tables, of_v: Values, of_w: Values) ->
     """Decide by the paper's formulas (4) and (5) which of the polyhedra V (``v``) and V' (``w``) is nearer.
 
     Return 1 if V is nearer, -1 if V' is nearer or 0 if undecided, and the formula that decided. ``of_v`` has the values
-    of formula (1), a line's equation, for the contour segments of V at the points of V', and ``of_w`` those for the
+    of formula (1), a line's equation, for the contour segments of V at the points of V', and ``of_w`` has those for the
     contour segments of V' at the points of V.
     """
     # Formula (4): at an intersection of the contours compare the depths of the two points that have it as their image.

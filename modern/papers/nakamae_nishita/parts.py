@@ -29,7 +29,7 @@ class Part:
     ``place`` names the part in messages. The function ``build`` creates the shape at the origin with the name that it
     receives. ``thing`` names the object to which all copies belong. ``figures`` are in the coordinates of the shape.
     The shape is multiplied by ``scale``, then rotated by ``turn`` degrees about the z axis, then moved by ``at``.
-    ``count`` has the numbers of copies along x, y and z, and ``step`` the distances between them.
+    ``count`` has the numbers of copies along x, y and z, and ``step`` has the distances between them.
     """
 
     place: str

@@ -1,8 +1,8 @@
 """Write a drawing as SVG, as HPGL for a plotter, or as text with intermediate results and the paper's Table 1.
 
 HPGL is the language of Hewlett-Packard's plotters. The drawing uses its instructions IN, SP, LT, PU (move with the pen
-up) and PD (move with the pen down). It consists of straight strokes, one for each piece. If objects touch, a line that
-belongs to both may be drawn twice.
+up) and PD (move with the pen down). The drawing consists of straight strokes, one for each piece. If objects touch, a
+line that belongs to both may be drawn twice.
 """
 
 from collections import Counter
@@ -83,7 +83,7 @@ def as_svg(drawing: Drawing, title: str = "", width: int = 640) -> str:
 
 
 def as_hpgl(drawing: Drawing) -> str:
-    """Return a drawing as HPGL, the language of pen plotters, for a sheet of A4; hidden pieces are dashed."""
+    """Return a drawing as HPGL, the language of pen plotters, for a sheet of A4. Hidden pieces are dashed."""
     pixel, height = fit(_extent(drawing), PLOT_WIDTH // 10, PLOT_HEIGHT // 10 - 2 * MARGIN)
 
     def strokes(visible: bool) -> Iterator[Stroke]:

@@ -34,7 +34,8 @@ class Sight:
     """The view of a scene.
 
     ``eye`` is the direction to the eye, or in perspective the observation point. In perspective, ``towards`` is the
-    point looked at (by default the centre of the scene), and ``near`` the distance of the near plane, if there is one.
+    point looked at (by default the centre of the scene), and ``near`` is the distance of the near plane, if there is
+    one.
     """
 
     eye: Vector
@@ -88,7 +89,10 @@ def scene(name: str) -> SceneFile:
 
 
 def read(path: str) -> SceneFile:
-    """Read a scene from a file; paths are relative to its folder. Raise FileError, or SceneError with the position."""
+    """Read a scene from a file. Paths in the file are relative to its folder.
+
+    Raise FileError, or SceneError with the position.
+    """
     return parse(read_text(path), source_name(path), os.path.dirname(path))
 
 

@@ -39,7 +39,7 @@ class Solid:
 
     ``points`` are the images of the vertices and then of the corners of figures. ``signs`` has 1 for each front face,
     -1 for each back face and 0 for each face that is seen edge-on. ``contour`` lists the indices of the contour's
-    vertices, clockwise, and ``lines`` the coefficients of formula (1), a line's equation, for each segment of the
+    vertices, clockwise, and ``lines`` has the coefficients of formula (1), a line's equation, for each segment of the
     contour. ``planes`` has for each face the coefficients of formula (5), its plane's equation, whose value is positive
     outside. ``used`` lists the indices of the ends of all segments, beginning with the points of the contour, and
     ``images`` has the projected points with these indices.
@@ -103,8 +103,9 @@ def solid(number: int, polyhedron: Polyhedron, observer: Observer, origin: Vecto
 def plane_through(p: Homogeneous, q: Homogeneous, r: Homogeneous) -> Plane:
     """Return the plane of formula (5) through three projected points, clockwise from outside, or zeros if collinear.
 
-    The coefficients are cofactors of a determinant. Its rows are the homogeneous coordinates of the three points and of
-    a variable point, and its value is the value of the plane's equation at the variable point.
+    The coefficients are cofactors of a determinant. The rows of the determinant are the homogeneous coordinates of the
+    three points and of a variable point. The value of the determinant is the value of the plane's equation at the
+    variable point.
     """
     # The 2 x 2 minors of q and r, each of which occurs in two cofactors.
     xy, xz, xw = q[0] * r[1] - q[1] * r[0], q[0] * r[2] - q[2] * r[0], q[0] * r[3] - q[3] * r[0]
@@ -137,7 +138,10 @@ def _face_plane(corners: Sequence[Homogeneous]) -> Plane:
 
 
 def _merged(edge: Edge, joined: Sequence[int]) -> Edge:
-    """Return an edge. Its kind becomes ``joined`` if its two faces were merged and it is not on the contour."""
+    """Return an edge with the kind ``joined`` if its two faces were merged and it is not on the contour.
+
+    Return any other edge unchanged.
+    """
     first, last = edge.faces[0], edge.faces[-1]
     within = edge.kind in (visible.INNER, visible.BACK) and joined[first] == joined[last]
     return replace(edge, kind=visible.JOINED) if within else edge

@@ -30,7 +30,7 @@ def half_cell_expansion(region: Voxels) -> Voxels:
     """Return the half-cell expansion E(S) of a region (3.2.3).
 
     The lattice of voxels is shifted by half a cell, and E(S) consists of the shifted cells that meet the region. Each
-    voxel of the region meets eight of them.
+    voxel of the region meets eight shifted cells.
     """
     expanded = np.zeros([size + 1 for size in region.shape], dtype=np.bool_)
     for step in product((0, 1), repeat=3):
@@ -70,8 +70,8 @@ def is_digitally_convex(region: Voxels) -> bool:
     """Return True if a region of voxels passes Kim and Rosenfeld's test of digital convexity (3.2.3).
 
     The region must be simple (see ``is_simple``). The test examines the semidigital points of the hull of its voxel
-    centres: the points on the faces with at least one integer coordinate. Each must be less than 1 away, on every
-    axis, from the centre of a voxel of the region.
+    centres: the points on the faces with at least one integer coordinate. Each of these points must be less than 1
+    away, on every axis, from the centre of a voxel of the region.
     """
     if not is_simple(region):
         return False

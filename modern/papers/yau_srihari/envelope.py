@@ -1,9 +1,10 @@
 """Compute the convex envelope of a floor: the lower side of the hull of the lowest voxels of all columns (section 5).
 
 The envelope consists of faces, which are found one after another. The faces are computed from the reduced set A of
-section 4.6.1, the points that can be vertices of the envelope. They lie above H(A), the plane hull of the positions
-(x, y) of these points. A and H(A) are found by lower chains (the lower sides of plane hulls). The paper computes such
-chains by Sklansky's scan, which follows a polygon once and steps back whenever the polygon turns the wrong way.
+section 4.6.1, the points that can be vertices of the envelope. The points of A lie above H(A), the plane hull of the
+positions (x, y) of these points. A and H(A) are found by lower chains (the lower sides of plane hulls). The paper
+computes such chains by Sklansky's scan, which follows a polygon once and steps back whenever the polygon turns the
+wrong way.
 """
 
 import math
@@ -109,8 +110,8 @@ class Step:
 
     ``normal`` is the normal of the known face at the edge. ``face`` is None if the search found no point. ``entered``
     and ``removed`` are the edges added to the queue and removed from it. ``marked`` is the number of heights entered in
-    the tree, ``visited`` the number of nodes that the search visited, ``angles`` the number of angles that it computed,
-    and ``waiting`` the number of edges in the queue afterwards.
+    the tree, ``visited`` is the number of nodes that the search visited, ``angles`` is the number of angles that it
+    computed, and ``waiting`` is the number of edges in the queue afterwards.
     """
 
     edge: Edge
@@ -128,11 +129,11 @@ class Step:
 class Envelope:
     """The convex envelope of a floor: its faces, or a chain of vertices if all columns are in one line.
 
-    ``reduced`` has the points that can be vertices (the reduced set A), and ``outline`` the vertices of H(A), the plane
-    hull of their positions, counterclockwise. If all columns are in one line, there are no ``faces``, and ``chain`` has
-    the envelope's vertices. ``tree`` is the floor tree with the heights of the envelope. The function ``construction``
-    computes ``steps``. ``fault`` is the reason why the construction stopped early, or "". Only statements applied as
-    printed can stop it.
+    ``reduced`` has the points that can be vertices (the reduced set A), and ``outline`` has the vertices of H(A), the
+    plane hull of their positions, counterclockwise. If all columns are in one line, there are no ``faces``, and
+    ``chain`` has the envelope's vertices. ``tree`` is the floor tree with the heights of the envelope. The function
+    ``construction`` computes ``steps``. ``fault`` is the reason why the construction stopped early, or "" if it did
+    not. Only statements applied as printed can stop it.
     """
 
     reduced: tuple[Point, ...]

@@ -47,7 +47,8 @@ def _component_count(count: int, a: Grid, b: Grid) -> int:
     """Return the number of components of a graph with ``count`` nodes, whose edge k joins the nodes a[k] and b[k].
 
     The label of a node is the least node known to be connected with it. The loop merges the labels of the two ends of
-    each edge. It then replaces each label by the label of that label until nothing changes (union-find on arrays).
+    each edge. It then replaces the label of each node by the label of the node that this label names, until nothing
+    changes (union-find on arrays).
     """
     label = np.arange(count)
     while len(a):
@@ -65,11 +66,11 @@ class OctreeHull:
     """The digital hull of a voxel solid, and all intermediate results of the paper's algorithm.
 
     ``side`` is the side of the cube that the octrees divide. ``solid`` and ``hull`` are the octrees of the solid and
-    the hull. ``lowest`` is the quadtree of the floor (the lowest voxel of each column), and ``highest`` that of the
-    ceiling (the highest voxel of each column). ``lower`` is the convex envelope of the floor, and ``upper`` the convex
-    envelope of the ceiling with negated heights. ``filled`` has the voxels of the hull in the shape of the volume.
-    ``components`` is the number of 6-connected components of the volume. If it is 1, section 3.3 equates the digital
-    convex hull with the digital points of the Euclidean hull.
+    the hull. ``lowest`` is the quadtree of the floor (the lowest voxel of each column), and ``highest`` is that of the
+    ceiling (the highest voxel of each column). ``lower`` is the convex envelope of the floor, and ``upper`` is the
+    convex envelope of the ceiling with negated heights. ``filled`` has the voxels of the hull in the shape of the
+    volume. ``components`` is the number of 6-connected components of the volume. If it is 1, section 3.3 equates the
+    digital convex hull with the digital points of the Euclidean hull.
     """
 
     side: int

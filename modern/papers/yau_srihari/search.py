@@ -36,7 +36,7 @@ class Search:
     ``normal`` is the outward normal of the edge's known face. ``best`` is the best score (see :meth:`score`) of the
     points examined so far, and ``points`` are the points with this score in the order of the search. ``sure`` is the
     paper's w, a score that at least one point is known to reach. ``visited`` is the number of visited nodes, and
-    ``angles`` the number of angles computed for points and for corners of squares.
+    ``angles`` is the number of angles computed for points and for corners of squares.
     """
 
     start: Point
@@ -75,7 +75,7 @@ class Search:
         return ex * (y - self.start[1]) < ey * (x - self.start[0])
 
     def _visit(self, levels: list[tuple[Grid, Grid]], up: int, i: int, j: int) -> None:
-        """Search a square of the tree, and its quarters unless the bounds of their scores exclude them."""
+        """Search a square of the tree, and those of its quarters that the bounds of their scores do not exclude."""
         self.visited += 1
         low, side = levels[up][0].item(i, j), 1 << up
         # Rule 1 of section 4.6.2: a square on the known side of the edge, or without points, is skipped.
@@ -105,7 +105,7 @@ class Search:
         """Return bounds for the scores of points in a square: the paper's delta_1 and delta_2.
 
         At least one point of the square has a score (see :meth:`score`) of at least delta_1, and no point has a score
-        above delta_2. Both are None if the corners of the square do not determine them.
+        above delta_2. Both bounds are None if the corners of the square do not determine them.
 
         The lower a point is, the smaller is the angle between the known face and the face through the point. The least
         height in the square therefore gives both bounds, because no point is lower and one point has this height. If
