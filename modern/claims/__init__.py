@@ -11,7 +11,8 @@ To add a verdict on a statement:
    gives the reason also states the verdict (``condition``, ``fails``, ...); a statement without such a field holds.
 2. Write a check in the module of ``modern/claims/DOCUMENT/`` that deals with the subject: a function with the decorator
    ``claim`` that returns a :class:`~modern.claims.evidence.Check`.  Choose the constructor by what is computed:
-   ``proved``, ``exhausted``, ``searched`` or ``search``, ``exhibited``, ``refuted``, ``slip``.  Sampled sets and
+   ``proved``, ``exhausted``, ``searched`` or ``search``, ``exhibited``, ``refuted``, ``slip``.  A function that returns
+   a :class:`~modern.claims.algebra.Proof` has the decorator ``proves`` instead.  Sampled sets and
    counterexamples come from :mod:`modern.claims.sampled_sets`.  With ``full=N`` in ``claim``, the check also has a full
    search of N cases.  Run ``make claims`` and commit its result in ``transcripts/statements/full.csv``.  The row says
    what the check computes; a docstring is needed only for what the row leaves out.

@@ -13,7 +13,7 @@ step for all real numbers.  The sentences that connect the steps are not checked
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
 from itertools import product
@@ -21,7 +21,7 @@ from operator import mul
 from random import Random
 from typing import Literal, TypeAlias
 
-from modern.claims.evidence import Check, proved
+from modern.claims.evidence import Check, Decision, attach, proved
 
 Relation: TypeAlias = Literal[">", ">=", "="]
 Monomial: TypeAlias = tuple[str, ...]
@@ -207,6 +207,25 @@ class Proof:
     def check(self, conclusion: str = "") -> Check:
         """Return the check of the theorem, or of a conclusion that the argument contains."""
         return proved(self.argument, (step.is_valid() for step in self.steps), conclusion or self.theorem)
+
+
+def proves(*statements: str, conclusion: str = "") -> Callable[[Callable[[], Proof]], Callable[[], Proof]]:
+    """Name the statements that the proof which a function returns decides.
+
+    statements: ids of rows of the register.
+    conclusion: what the argument says about these statements; by default, they are the theorem itself.
+    """
+
+    def decorate(proof: Callable[[], Proof]) -> Callable[[], Proof]:
+        subject = (("proof", proof), ("conclusion", conclusion))
+        attach(proof, [Decision(name, _check_of, subject) for name in statements])
+        return proof
+
+    return decorate
+
+
+def _check_of(proof: Callable[[], Proof], conclusion: str) -> Check:
+    return proof().check(conclusion)
 
 
 def largest_value() -> Step:

@@ -202,11 +202,15 @@ def claim(*statements: str, full: int = 0, **subject: Any) -> Callable[[F], F]:
     def decorate(function: F) -> F:
         if full and "cases" not in inspect.signature(function).parameters:
             raise TypeError(f"{function.__qualname__}: a check with a full search needs the parameter 'cases'")
-        decisions = [Decision(name, function, tuple(subject.items()), full) for name in statements]
-        function.__dict__.setdefault(_ATTRIBUTE, []).extend(decisions)
+        attach(function, [Decision(name, function, tuple(subject.items()), full) for name in statements])
         return function
 
     return decorate
+
+
+def attach(function: Callable[..., object], decisions: list[Decision]) -> None:
+    """Add decisions to a function, from which :func:`decisions_in` reads them."""
+    function.__dict__.setdefault(_ATTRIBUTE, []).extend(decisions)
 
 
 def decisions_in(module: object) -> Iterator[Decision]:

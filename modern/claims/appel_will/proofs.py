@@ -1,7 +1,5 @@
 """Proofs of equations and tests of Appel and Will; :mod:`modern.claims.algebra` checks the steps."""
 
-from collections.abc import Callable
-
 from modern.claims.algebra import (
     IMPOSSIBLE,
     Point,
@@ -16,14 +14,15 @@ from modern.claims.algebra import (
     not_negative,
     point,
     positive,
+    proves,
     term,
     total,
     variables,
     zero,
 )
-from modern.claims.evidence import Check, claim
 
 
+@proves("appel-will.52", "thesis.214")
 def inside_triangle() -> Proof:
     a, b, c, p = (point(name, 2) for name in "abcp")
     area, weights = bracket(a, b, c), (bracket(b, c, p), bracket(c, a, p), bracket(a, b, p))
@@ -41,6 +40,7 @@ def inside_triangle() -> Proof:
     )
 
 
+@proves("appel-will.49", "appel-will.50", "appel-will.51")
 def triangle_area() -> Proof:
     p, u = point("p", 2), point("u", 2)
     along, height = variables("along height")
@@ -64,6 +64,7 @@ def triangle_area() -> Proof:
     )
 
 
+@proves("appel-will.81", "appel-will.82", "appel-will.139")
 def lines_and_planes() -> Proof:
     p, q, n = (point(name, 3) for name in "pqn")
     d, t, length = variables("d t l")
@@ -88,6 +89,7 @@ def lines_and_planes() -> Proof:
     )
 
 
+@proves("appel-will.157")
 def product_of_lines() -> Proof:
     u, v = point("u", 3), point("v", 3)
     steps = [Step("the product is perpendicular", {}, zero(dot(cross(u, v), line))) for line in (u, v)]
@@ -97,6 +99,7 @@ def product_of_lines() -> Proof:
     return Proof("the product of two lines of a surface is normal to it", argument, tuple(steps))
 
 
+@proves("nakamae-nishita.34")
 def equal_images() -> Proof:
     p, q = point("p", 3), point("q", 3)
     normal = cross(p, q)
@@ -111,6 +114,7 @@ def equal_images() -> Proof:
     )
 
 
+@proves("appel-will.38")
 def fewer_pairs() -> Proof:
     (m,) = variables("m")
     n = m + 6
@@ -125,6 +129,8 @@ def fewer_pairs() -> Proof:
     )
 
 
+@proves("appel-will.27")
+@proves("appel-will.79", conclusion="the hull stays the same if points inside it are added")
 def points_of_hull() -> Proof:
     return Proof(
         "a convex combination of points is on the inner side of every plane that has all these points on this side",
@@ -135,6 +141,7 @@ def points_of_hull() -> Proof:
     )
 
 
+@proves("appel-will.31")
 def projections() -> Proof:
     return Proof(
         "the image of the hull of points is the hull of their images",
@@ -144,6 +151,7 @@ def projections() -> Proof:
     )
 
 
+@proves("appel-will.72")
 def three_planes() -> Proof:
     u, v, w = (point(name, 3) for name in "uvw")
     (side,) = variables("side")
@@ -178,6 +186,7 @@ def least_surface() -> Proof:
     )
 
 
+@proves("appel-will.85", "appel-will.140")
 def inside_corner() -> Proof:
     i, k, second = (point(name, 3) for name in "ikl")
     triple = dot(i, cross(k, second))
@@ -195,6 +204,7 @@ def inside_corner() -> Proof:
     )
 
 
+@proves("appel-will.73", "appel-will.74")
 def outside_corners() -> Proof:
     return Proof(
         "a vertex of the hull is on at least three outside corners, and so no point on only one is such a vertex",
@@ -205,6 +215,7 @@ def outside_corners() -> Proof:
     )
 
 
+@proves("appel-will.75")
 def concave_point() -> Proof:
     first, second = variables("L_u L_v")
     hypotheses = {"u": positive(-first), "v": positive(-second), "opposite": positive(first + second)}
@@ -215,20 +226,3 @@ def concave_point() -> Proof:
         "concave point the surface contains points in the direction -u-v, along which L would have to decrease too.",
         (Step("L cannot decrease along u, v and -u-v", hypotheses, IMPOSSIBLE, terms),),
     )
-
-
-@claim("appel-will.27", proof=points_of_hull)
-@claim("appel-will.79", proof=points_of_hull, conclusion="the hull stays the same if points inside it are added")
-@claim("appel-will.31", proof=projections)
-@claim("appel-will.38", proof=fewer_pairs)
-@claim("appel-will.72", proof=three_planes)
-@claim("appel-will.73", "appel-will.74", proof=outside_corners)
-@claim("appel-will.75", proof=concave_point)
-@claim("appel-will.85", "appel-will.140", proof=inside_corner)
-@claim("appel-will.157", proof=product_of_lines)
-@claim("appel-will.49", "appel-will.50", "appel-will.51", proof=triangle_area)
-@claim("appel-will.52", "thesis.214", proof=inside_triangle)
-@claim("nakamae-nishita.34", proof=equal_images)
-@claim("appel-will.81", "appel-will.82", "appel-will.139", proof=lines_and_planes)
-def proof_of_equation(proof: Callable[[], Proof], conclusion: str = "") -> Check:
-    return proof().check(conclusion)

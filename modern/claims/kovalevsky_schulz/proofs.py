@@ -1,6 +1,5 @@
 """Proofs of lemmas LZ, CH and BE of Kovalevsky and Schulz; :mod:`modern.claims.algebra` checks the steps."""
 
-from collections.abc import Callable
 from dataclasses import replace
 
 from modern.claims.algebra import (
@@ -13,6 +12,7 @@ from modern.claims.algebra import (
     not_negative,
     point,
     positive,
+    proves,
     term,
     variables,
     zero,
@@ -22,6 +22,7 @@ from modern.claims.hulls import exact_hull
 from modern.geometry import vectors
 
 
+@proves("kovalevsky-schulz.66")
 def largest_of_part() -> Proof:
     h_c, h_v = variables("H_c H_v")
     signs, terms = {"c": not_negative(h_c), "v": positive(-h_v)}, (term("c"), term("v"))
@@ -32,6 +33,7 @@ def largest_of_part() -> Proof:
     )
 
 
+@proves("kovalevsky-schulz.68")
 def last_of_three_choices() -> Proof:
     way = minus(point("p", 3), point("q", 3))
     equal = {axis: zero(d) for axis, d in zip("xyz", way, strict=True)}
@@ -44,6 +46,7 @@ def last_of_three_choices() -> Proof:
     )
 
 
+@proves("kovalevsky-schulz.124")
 def largest_combination() -> Proof:
     return Proof(
         "a point with the largest value of H is a combination only of points with this value",
@@ -53,6 +56,7 @@ def largest_combination() -> Proof:
     )
 
 
+@proves("kovalevsky-schulz.65")
 def lemma_lz() -> Proof:
     return Proof(
         "a part of a finite set that a linear inequality cuts off contains a point that is no combination of others",
@@ -64,6 +68,7 @@ def lemma_lz() -> Proof:
     )
 
 
+@proves("kovalevsky-schulz.69")
 def lemma_ch() -> Proof:
     return Proof(
         "a convex polyhedron that contains all local corners, and whose vertices are local corners, is the hull",
@@ -75,6 +80,12 @@ def lemma_ch() -> Proof:
     )
 
 
+@proves("kovalevsky-schulz.14", "kovalevsky-schulz.16", "kovalevsky-schulz.17")
+@proves("kovalevsky-schulz.121", conclusion="a smaller polyhedron does not contain all vertices")
+@proves("kovalevsky-schulz.167", conclusion="the vertex is no combination of other points")
+@proves("appel-will.16", conclusion="a combination of listed points is no new vertex")
+@proves("appel-will.19", conclusion="all vertices of the hull are vertices of the polyhedron")
+@proves("appel-will.41", "appel-will.133", conclusion="a point between two others is no vertex")
 def no_combination() -> Proof:
     return Proof(
         "a point of a convex polyhedron is a vertex if and only if it is a combination of no other points of it",
@@ -88,6 +99,8 @@ def no_combination() -> Proof:
     )
 
 
+@proves("kovalevsky-schulz.49")
+@proves("kovalevsky-schulz.173", conclusion="visible faces make acute angles, invisible ones obtuse")
 def choice_of_q() -> Proof:
     n, p, q, r = (point(name, 3) for name in "npqr")
     in_face, difference = zero(dot(n, minus(q, r))), zero(dot(n, minus(p, q)) - dot(n, minus(p, r)))
@@ -113,6 +126,7 @@ def halves() -> Proof:
     )
 
 
+@proves("kovalevsky-schulz.95")
 def symmetry() -> Proof:
     return Proof(
         "a rotation or reflection that maps the points to themselves maps their hull to itself",
@@ -123,6 +137,8 @@ def symmetry() -> Proof:
     )
 
 
+@proves("kovalevsky-schulz.71")
+@proves("kovalevsky-schulz.168", conclusion="the product with the new normal is not positive")
 def lemma_be() -> Proof:
     visible, hidden = point("v", 3), point("n", 3)
     edge, new, way = point("e", 3), point("p", 3), point("w", 3)
@@ -154,6 +170,7 @@ def lemma_be() -> Proof:
     )
 
 
+@proves("kovalevsky-schulz.72")
 def formula_4() -> Proof:
     return replace(lemma_be(), theorem="the outward normal of the plane is a N_v + b N_n with positive a and b")
 
@@ -163,27 +180,6 @@ def has_zero_coefficient() -> bool:
     visible, hidden, edge, new = (1, 0, 0), (0, 0, -1), (2, 1, 0), (4, 1, 0)
     a, b = -vectors.dot(hidden, vectors.minus(new, edge)), vectors.dot(visible, vectors.minus(new, edge))
     return a == 0 < b
-
-
-@claim("kovalevsky-schulz.65", proof=lemma_lz)
-@claim("kovalevsky-schulz.72", proof=formula_4)
-@claim("kovalevsky-schulz.66", proof=largest_of_part)
-@claim("kovalevsky-schulz.68", proof=last_of_three_choices)
-@claim("kovalevsky-schulz.124", proof=largest_combination)
-@claim("kovalevsky-schulz.69", proof=lemma_ch)
-@claim("kovalevsky-schulz.14", "kovalevsky-schulz.16", "kovalevsky-schulz.17", proof=no_combination)
-@claim("kovalevsky-schulz.121", proof=no_combination, conclusion="a smaller polyhedron does not contain all vertices")
-@claim("kovalevsky-schulz.167", proof=no_combination, conclusion="the vertex is no combination of other points")
-@claim("appel-will.16", proof=no_combination, conclusion="a combination of listed points is no new vertex")
-@claim("appel-will.19", proof=no_combination, conclusion="all vertices of the hull are vertices of the polyhedron")
-@claim("appel-will.41", "appel-will.133", proof=no_combination, conclusion="a point between two others is no vertex")
-@claim("kovalevsky-schulz.49", proof=choice_of_q)
-@claim("kovalevsky-schulz.173", proof=choice_of_q, conclusion="visible faces make acute angles, invisible ones obtuse")
-@claim("kovalevsky-schulz.95", proof=symmetry)
-@claim("kovalevsky-schulz.71", proof=lemma_be)
-@claim("kovalevsky-schulz.168", proof=lemma_be, conclusion="the product with the new normal is not positive")
-def proof_of_lemma(proof: Callable[[], Proof], conclusion: str = "") -> Check:
-    return proof().check(conclusion)
 
 
 @claim("kovalevsky-schulz.146", "yau-srihari.17")

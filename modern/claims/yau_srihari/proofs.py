@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from modern.claims.algebra import (
     Proof,
     Step,
@@ -13,6 +11,7 @@ from modern.claims.algebra import (
     not_negative,
     point,
     positive,
+    proves,
     term,
     turn,
     variables,
@@ -37,6 +36,8 @@ def combination_above() -> Step:
     )
 
 
+@proves("yau-srihari.40")
+@proves("yau-srihari.41", conclusion="a set that consists of all its combinations is convex")
 def hull_is_convex() -> Proof:
     m, k, w = variables("m k w")
     weights = {"w": not_negative(w), "k": not_negative(k), "m": not_negative(m), "rest": not_negative(1 - m)}
@@ -55,6 +56,7 @@ def hull_is_convex() -> Proof:
     )
 
 
+@proves("yau-srihari.47", "yau-srihari.96")
 def convex_epigraph() -> Proof:
     return Proof(
         "a function is convex if and only if the set on and above its graph is, and similarly for concave functions",
@@ -67,6 +69,7 @@ def convex_epigraph() -> Proof:
     )
 
 
+@proves("yau-srihari.117", "yau-srihari.118")
 def segment_of_graph() -> Proof:
     m, f_x, f_y, f_between, z = variables("m f_x f_y f_between z")
     combined = (1 - m) * f_x + m * f_y
@@ -84,6 +87,7 @@ def segment_of_graph() -> Proof:
     )
 
 
+@proves("yau-srihari.44")
 def negative_is_concave() -> Proof:
     m, f_x, f_y, f_between = variables("m f_x f_y f_between")
     convex = {"convex": not_negative((1 - m) * f_x + m * f_y - f_between)}
@@ -95,6 +99,7 @@ def negative_is_concave() -> Proof:
     )
 
 
+@proves("yau-srihari.48")
 def theorem_1() -> Proof:
     low, high, z = variables("low high z")
     between = zero((high - low) * z - (high - z) * low - (z - low) * high)
@@ -146,6 +151,7 @@ def theorem_2() -> Proof:
     )
 
 
+@proves("yau-srihari.101")
 def third_corner() -> Proof:
     at_corner, at_point = variables("L_v L_w")
     corner, same_side = positive(at_corner), not_negative(at_corner * at_point)
@@ -163,6 +169,7 @@ def third_corner() -> Proof:
     )
 
 
+@proves("yau-srihari.84")
 def normal_of_starting_face() -> Proof:
     start, end, (c,) = point("w", 3), point("u", 3), variables("c")
     normal, (dx, dy, _) = cross(minus(end, start), (0 * c, 0 * c, c)), minus(end, start)
@@ -173,6 +180,7 @@ def normal_of_starting_face() -> Proof:
     )
 
 
+@proves("yau-srihari.113")
 def number_of_pairs() -> Proof:
     (n,) = variables("n")
     return Proof(
@@ -187,16 +195,3 @@ def number_of_pairs() -> Proof:
 def angle_of_theorem_2() -> Check:
     as_printed = algorithm_as_printed("angle")
     return theorem_2().check().misprinted(not as_printed.holds, "psi as the interior dihedral angle of p and q")
-
-
-@claim("yau-srihari.40", proof=hull_is_convex)
-@claim("yau-srihari.41", proof=hull_is_convex, conclusion="a set that consists of all its combinations is convex")
-@claim("yau-srihari.44", proof=negative_is_concave)
-@claim("yau-srihari.117", "yau-srihari.118", proof=segment_of_graph)
-@claim("yau-srihari.47", "yau-srihari.96", proof=convex_epigraph)
-@claim("yau-srihari.48", proof=theorem_1)
-@claim("yau-srihari.84", proof=normal_of_starting_face)
-@claim("yau-srihari.113", proof=number_of_pairs)
-@claim("yau-srihari.101", proof=third_corner)
-def proof_of_theorem(proof: Callable[[], Proof], conclusion: str = "") -> Check:
-    return proof().check(conclusion)
