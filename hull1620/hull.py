@@ -54,14 +54,15 @@ class Hull:
 
     Points are identified by their index in the input, from 0.  Arrays hold the nearest doubles and are read-only.
     ``simplices``, ``equations``, ``neighbors``, ``volume``, ``area`` and ``squared_areas`` raise ExportError if the
-    procedure found no hull; the last three also if the faces form no closed surface because numbers were rounded.
+    procedure found no hull.  ``volume``, ``area`` and ``squared_areas`` also raise it if the faces form no closed
+    surface because numbers were rounded.
 
     Attributes
     ----------
     record : modern.geometry.hull.Hull
         All data of the hull as exact text.  The other attributes are derived from it.
     certificate : Certificate or None
-        The number of checks of each kind that proved the hull; None for a hull of ``convex_hull``.
+        The number of checks of each kind that proved the hull, or None for a hull of ``convex_hull``.
     """
 
     record: Record

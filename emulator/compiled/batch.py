@@ -64,7 +64,7 @@ def punched(
 ) -> Iterator[str]:
     """Run a program on many decks, and yield the text of the cards that it punches for each deck.
 
-    A text has one card on each line; ``texts`` are the texts of the decks.  Raise what
+    ``texts`` are the decks as texts.  Each text, also a yielded one, has one card on each line.  Raise what
     :func:`emulator.language.cards.deck_from_text` and :meth:`emulator.machine.machine.Machine.run` raise.
     """
     options = options or Options()

@@ -96,7 +96,7 @@ class Cards(NamedTuple):
 
 
 class Tools(NamedTuple):
-    """Buffers reused for every deck: FORMAT texts, which a READ can change; device registers; one record; one field."""
+    """The buffers reused for every deck: FORMAT texts (a READ can change them), registers, one record and one field."""
 
     texts: Row
     devices: Row

@@ -1,7 +1,8 @@
 """Repeat the recorded operations of a run (a tape, emulator/machine/tape.py) in another arithmetic.
 
-The other arithmetic may have more digits, round at random, compute intervals or be exact.  It holds the input numbers
-of the run exactly.  After an overflow the repetition continues with the largest number, as the machine does.
+The other arithmetic may have more digits, round at random, compute intervals or be exact.  The other arithmetic holds
+the input numbers of the run exactly.  After an overflow the repetition continues with the largest number, as the
+machine does.
 """
 
 import decimal
@@ -88,8 +89,8 @@ def compile_repetitions() -> None:
 def repetitions(tape: Tape, digits: int, rules_of_runs: Iterable[Rules]) -> Iterator[tuple[list[int], list[int]]]:
     """Repeat a tape with each of the given rules.  Yield the mantissas and the exponents of the tested numbers.
 
-    The tape was recorded with ``digits`` digits; the rules have at least as many.  The numbers are those that the IFs
-    tested, in the order of ``tape.tests``.
+    The tape was recorded with ``digits`` digits.  Each of the rules must have at least this number of digits.  The
+    numbers are those that the IFs tested, in the order of ``tape.tests``.
     """
     compiled = None if must_compile_repetitions() else _compiled()
     code = tape.operations, tape.firsts, tape.seconds

@@ -16,12 +16,13 @@ To add a kind of statement:
    with the statement, and an entry of ``_EFFECTS`` if a trace should show its effect.  mypy reports an error until the
    case exists.
 7. ``emulator/translation/steps.py`` and ``writers.py``: a step, if the statement needs a new operation.
-8. Only if no existing operation fits, add one.  Its name and meaning belong in ``objectcode.py`` (``MEANINGS``, and the
-   names below it in the same order).  Its action belongs in ``emulator/machine/interpreter.py``, or in ``session.py``
-   or ``devices.py`` if it concerns the operator or a device.  ``emulator/compiled/kernel.py`` repeats the action, or
-   ``emulator/compiled/deck.py`` returns ``NOT_HERE``.  Its time belongs in ``emulator/machine/timing.py``.  If it
-   branches, it also needs cases in ``flatten`` and in ``successors`` of ``control_flow.py``, and with several targets
-   an entry in ``_DECISIONS`` of ``emulator/machine/comparison.py``.
+8. Only if no existing operation fits, add one.  The name and the meaning of the operation belong in ``objectcode.py``
+   (``MEANINGS``, and the names below it in the same order).  Its action belongs in ``emulator/machine/interpreter.py``,
+   or in ``session.py`` or ``devices.py`` if it concerns the operator or a device.  ``emulator/compiled/kernel.py``
+   repeats the action, or ``emulator/compiled/deck.py`` returns ``NOT_HERE``.  Its time belongs in
+   ``emulator/machine/timing.py``.  If the operation branches, it also needs cases in ``flatten`` and in ``successors``
+   of ``control_flow.py``.  If it has several targets, it also needs an entry in ``_DECISIONS`` of
+   ``emulator/machine/comparison.py``.
 9. Tests: ``tests/emulator/language/`` (``test_statements.py``, ``test_parser.py``, ``test_compiler_code.py``,
    ``test_compiler_messages.py``), ``tests/emulator/test_period.py``, which runs programs on both engines, and
    ``tests/support/decks_at_random.py``.
@@ -36,9 +37,9 @@ To add a FORMAT code that transfers a number:
    decimals.
 3. ``emulator/machine/devices.py`` and ``emulator/compiled/devices.py``: call the new functions for an ITEM.  The
    constants at the top of ``compiled/devices.py``, and ``_KINDS`` and ``WAYS`` in ``compiled/runner.py``, number the
-   kinds.  ``_check_mode`` and its callers in ``machine/devices.py``, and the same tests in the other devices and
-   runtimes, assume that every code except I belongs to a floating-point number; a further fixed-point code must be
-   added to these tests.
+   kinds.  ``_check_mode`` and its callers in ``machine/devices.py``, and the same tests in ``compiled/devices.py`` and
+   in the runtimes, assume that every code except I transfers a floating-point number.  If the new code transfers a
+   fixed-point number, add it to these tests.
 4. ``emulator/translation/runtime.c`` and ``runtime.f90``: read and write the field.
 5. ``ibm1962.py``: the digit of the letter in ``KINDS``, for object decks.
 6. ``emulator/machine/timing.py``: the times of reading and writing the field.
@@ -46,7 +47,7 @@ To add a FORMAT code that transfers a number:
 8. Tests: ``tests/emulator/language/test_formats.py`` and ``tests/emulator/numbers/test_fields.py``.
 
 A code that transfers no number, like X and H, is a class next to ``Literal`` in ``formats.py`` and a member of
-``Spec``.  It needs a case in ``_pass_spec`` of ``emulator/machine/forms.py``, ``_forms`` of
+``Spec``.  Such a code needs a case in ``_pass_spec`` of ``emulator/machine/forms.py``, ``_forms`` of
 ``emulator/compiled/runner.py``, both ``devices.py``, ``layout`` of ``emulator/translation/writers.py`` and its
 runtimes, and in ``FormatSpec.widths`` and ``positions``.
 """

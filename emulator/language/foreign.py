@@ -16,10 +16,10 @@ from emulator.language.cards import RECORD_MARK
 class ForeignStatement:
     """A statement of another FORTRAN: its name in messages, the language it belongs to, and a replacement for it.
 
-    ``has_body`` is True if the cards after the statement, up to an END, belong to it.  ``declares`` is ``all`` if the
-    statement may declare each of its names as an array, as a function or with a type, ``(`` if only the names followed
-    by a parenthesis, and otherwise empty.  Other statements with a declared name cannot be checked.  ``number`` is
-    IBM's error type, or 0.
+    ``has_body`` is True if the cards after the statement, up to an END, belong to it.  ``declares`` tells which names
+    in the statement may be declared by it as an array, as a function or with a type: ``all`` names, only the names
+    followed by a parenthesis (``(``), or none (empty).  Other statements that use a declared name cannot be checked.
+    ``number`` is IBM's error type, or 0.
     """
 
     name: str

@@ -54,8 +54,8 @@ class Parsed:
     """The result of parsing a deck: the statements that parse, and a message for each statement that does not.
 
     ``refused`` holds the statement numbers of the statements that do not parse.  ``foreign_names`` holds the names that
-    statements of another FORTRAN declare as arrays or functions, so that statements using these names cannot be
-    checked.  ``data`` holds the data cards after END: without leading blank cards, and up to the first control card.
+    statements of another FORTRAN declare as arrays or functions.  Statements that use these names cannot be checked.
+    ``data`` holds the data cards after END: without leading blank cards, and up to the first control card.
     """
 
     statements: tuple[tree.Statement, ...]

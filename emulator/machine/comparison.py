@@ -41,8 +41,8 @@ class Difference:
 class Decision:
     """A decision (IF, computed GO TO or end of a DO) that has different outcomes in the two runs.
 
-    ``time`` is the number of the execution of the statement ``line``, counted from 1.  For each run, ``values``
-    has the tested value, and ``targets`` the statement at which the run continues.
+    ``time`` is the number of the execution of the statement ``line``, counted from 1.  ``values`` has the tested value
+    of each run, and ``targets`` has the statement at which each run continues.
     """
 
     line: Line
@@ -237,7 +237,7 @@ def _logarithm(value: Fraction) -> float:
 
 
 def _text(numbers: Numbers, value: Number, exact: Fraction | int | None) -> str:
-    """Return a number as text: its exact value if that is given, otherwise as its arithmetic prints it."""
+    """Return the text of ``exact`` if it is given, otherwise the text of ``value`` in its own arithmetic."""
     if value is None:
         return "undefined"
     if isinstance(value, int):

@@ -1,10 +1,10 @@
 """Compare runs of a program in two arithmetics: find the first value and the first decision that differ.
 
 Both runs read the same deck.  As long as every decision (IF, computed GO TO, the end of a DO) has the same outcome in
-both, they execute the same statements, and the values they store can be compared.  After a decision with different
-outcomes the runs have diverged.  The comparison continues at the first statement that lies on every path from either
-branch (emulator/machine/postdominators.py).  The comparison ends if there is no such statement, or if one of the runs
-ends before reaching it.
+both runs, the runs execute the same statements, and the values that they store can be compared.  After a decision with
+different outcomes the runs have diverged.  The comparison continues at the first statement that lies on every path from
+either branch (emulator/machine/postdominators.py).  The comparison ends if there is no such statement, or if one of the
+runs ends before reaching it.
 
 Lost digits are counted only up to the first decision that differs.  After that decision a value may differ because the
 program chose another point, although no digit was lost.  A value with the relative difference r from the reference has
@@ -12,8 +12,9 @@ lost ``P + log10(r)`` digits, at least 0 and at most P, where P is the number of
 
 A reference that rounds is itself inexact.  Its run computes an error bound for every number, which
 emulator/numbers/shadowed.py derives.  A difference within the bound is counted as ``within`` and not as a difference.
-If an IF has different outcomes and the value in the reference run is no farther from zero than its bound, the reference
-cannot tell which outcome is right, and the comparison ends there.
+If an IF has different outcomes, the comparison looks at the value that the IF tests in the reference run.  If this
+value is no farther from zero than its error bound, the reference cannot tell which outcome is right, and the comparison
+ends at this IF.
 """
 
 import math

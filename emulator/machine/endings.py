@@ -31,15 +31,16 @@ class Ending:
       allow this end at any READ, not only at the READ that begins a data set.  A note after the run then reports it.
     - limit: ``count`` is the limit.  ``costly`` is the part of the work that was done by operations that take longer
       than a statement.  ``line`` is set if a single operation would exceed the limit.  ``loop`` holds the statements
-      executed last, in the order of their cards; ``repeats`` means that each of them was executed more than once.
+      executed last, in the order of their cards.  ``repeats`` is True if each statement of ``loop`` was executed more
+      than once.
     - bounds: the array ``name``, its ``shape`` and the ``subscripts``.
     - outside: a subscript refers to a position outside the data.  This kind sets no other fields.
     - undefined: the ``name`` of the field.  ``put_out`` is True if an output list contains it.
     - select: a computed GO TO whose variable selects none of its statement numbers.  ``subscripts`` holds the
       variable's value.
-    - mode: the ``name`` of the field and the ``mode`` of its number.  If ``format`` holds the number of a FORMAT,
-      ``field`` is its specification that does not fit the number, or None if the FORMAT has no fields.
-    - record: a record too long for IBM's library of 1962 (ERROR F9); ``format`` holds the number of its FORMAT.
+    - mode: the ``name`` of the field and the ``mode`` of its number.  If a FORMAT is involved, ``format`` is its
+      number, and ``field`` is the specification in it that does not fit the mode, or None if the FORMAT has no fields.
+    - record: a record too long for IBM's library of 1962 (ERROR F9).  ``format`` holds the number of its FORMAT.
     - undecided: ``trouble`` says what the numbers cannot decide.
     - input: ``trouble`` says what is wrong with the deck.
     - operator: the operator stopped the run; ``trouble`` says so.
@@ -212,8 +213,9 @@ class Notice:
     """A warning about a run that continues.
 
     - pause: the machine halted at the statement ``line``, and START was pressed automatically.
-    - field: a remark about a number in a field of a card or, with ``typed``, of a typed line.
-    - record: a record of FORMAT ``format`` had ``width`` characters; the device truncated it to ``columns``.
+    - field: a remark about a number in a field of a card, or of a typed line if ``typed`` is True.
+    - record: a record of FORMAT ``format`` had ``width`` characters, and the device truncated it to ``columns``
+      characters.
     """
 
     kind: Literal["pause", "field", "record"]

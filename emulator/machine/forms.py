@@ -56,7 +56,10 @@ class _Walk(ABC):
     again: int = field(default=0, init=False)
 
     def _to_field(self) -> Field:
-        """Return the next number field; at its end the FORMAT begins again.  Raise NoField if it has no such field."""
+        """Return the next number field.
+
+        At the end of the FORMAT, continue with its repetition.  Raise NoField if the FORMAT has no number field.
+        """
         spec = self._advance()
         while spec is None:
             if not self.layout.spec.has_fields:
@@ -184,8 +187,8 @@ class Output1962(Output):
         """End the record at a number that is in error, and return the columns that precede the error code.
 
         A blank record is not written.  The next record begins with blanks up to the end of the number's field.
-        ``exponent`` is the text that the library has already stored at the end of a too narrow E field.  It remains in
-        a punched record, but a typed line ends before it.
+        ``exponent`` is the text that the library has already stored at the end of a too narrow E field.  This text
+        remains in a punched record, but a typed line ends before it.
         """
         column = self.width + width
         text = f"{''.join(self._parts):{column}}"

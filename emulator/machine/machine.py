@@ -16,7 +16,7 @@ from emulator.machine.session import Halt, Session
 class Machine(Session):
     """A machine with a program in core storage, a deck in the card reader's hopper, and an operator.
 
-    ``keyboard`` supplies the lines for ACCEPT if nobody sits at the console; the only other action is then START.
+    If nobody sits at the console, ``keyboard`` supplies the lines for ACCEPT, and START is pressed at every other halt.
     Raise DeckError if the program does not fit the machine's core storage.
     """
 
@@ -54,8 +54,8 @@ def run_with_operator(
     """Run a session with an operator until ``goal`` units of work are done, or to its end if ``goal`` is None.
 
     Return the ending, or None if the run has not ended.  ``output`` receives every event before the operator does.
-    Raise what :meth:`emulator.machine.session.Session.advance` and the operator raise; ``output`` has then received
-    all events up to that moment.
+    Raise the errors of :meth:`emulator.machine.session.Session.advance` and of the operator.  ``output`` has received
+    all events that precede the error.
     """
     last = session.options.limit if goal is None else goal
     session.retypes = session.by_lines = operator.present

@@ -184,8 +184,8 @@ class FromFile(Operator):
 class Logged(Operator):
     """An operator whose actions are logged to a file, with the events of the machine as comments.
 
-    With the same program and deck, :class:`FromFile` repeats the run from the log and produces the same log.  The LOAD
-    line contains ``deck_name``, by default the session's name of the deck, unless this name contains a blank.
+    With the same program and deck, :class:`FromFile` repeats the run from the log and produces the same log.
+    ``deck_name`` is by default the session's name of the deck.  The LOAD line contains this name unless it has a blank.
     """
 
     def __init__(self, operator: Operator, file: TextIO, deck_name: str | None = None) -> None:

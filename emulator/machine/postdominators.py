@@ -11,8 +11,9 @@ from operator import and_
 def post_dominators(follow: Sequence[Sequence[int]]) -> list[int]:
     """Return the post-dominators of each instruction, itself included, as a set of bits: 2**n for instruction n.
 
-    ``follow`` holds the possible successors of each instruction; the index after the last instruction stands for the
-    end.  The last set in the list belongs to the end.  An instruction without a path to the end has the set 0.
+    ``follow`` holds the possible successors of each instruction.  The index after the last instruction stands for the
+    end of the program.  The last set in the list belongs to the end.  An instruction without a path to the end has the
+    set 0.
     """
     end = len(follow)
     sets = [0] * end + [1 << end]

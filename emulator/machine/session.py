@@ -28,10 +28,10 @@ BAD_INPUT = Ending("input", trouble="bad input")
 class Halt:
     """A machine that has stopped and waits for its operator.
 
-    - accept: the ACCEPT statement ``line`` needs a typed line.  ``trouble`` says why the previous one was rejected.
+    - accept: the ACCEPT statement ``line`` needs a typed line.  ``trouble`` says why the previous line was rejected.
     - pause: ``line`` is a PAUSE with ``number``.
     - stop: the machine has stopped before ``line`` for the reason ``why``: ``attention``, ``step``, ``breakpoint``, or
-      for example ``NE has changed``, which names a variable.
+      the change of a variable, such as ``NE has changed``.
     """
 
     what: Literal["accept", "pause", "stop"]
@@ -46,7 +46,8 @@ class Action:
     """An action of the operator.
 
     - ENTER: type ``text`` for ACCEPT.
-    - START: continue.  With ``unasked``, START was pressed automatically; after a PAUSE this is reported in a notice.
+    - START: continue.  If ``unasked`` is True, START was pressed automatically.  At a PAUSE, a notice then reports
+      this.
     - STEP: execute ``number`` statements.
     - STOP: end the run and keep its results.
     - ATTN: stop a running machine before its next statement.  A second ATTN stops it at once, even within a list of an
@@ -270,7 +271,7 @@ class Session:
         return self._ending or self.halt
 
     def _wait_for_line(self, trouble: str) -> None:
-        """Halt until the operator types a line; ``trouble`` says why the previous line was invalid, if it was."""
+        """Halt until the operator types a line.  ``trouble`` says why the previous line was invalid, or is empty."""
         self._checkpoint = _Checkpoint(self) if self.retypes else None
         self.halt = Halt("accept", self.program.line_at(self.state.at), trouble=trouble)
 

@@ -1,7 +1,7 @@
 """The state of a run as plain data, and the journal by which two runs are compared.
 
-For each field of core storage ``values`` holds a number, and ``kinds`` the kind of the number: FIXED_POINT, UNDEFINED,
-or FLOATING for a number of the arithmetic.
+For each field of core storage, ``values`` holds a number, and ``kinds`` holds the kind of this number: FIXED_POINT,
+UNDEFINED, or FLOATING for a number of the arithmetic.
 """
 
 from collections.abc import Sequence
@@ -64,8 +64,8 @@ class State:
     this instruction uses, and its subscripts.  sent, sent_kind: the value and kind of a field that is being copied.
     stored: the field last stored into.
 
-    element: the number of elements of an array that its ITEM has transferred; ITEM is then executed again.
-    listed: True if an element has been transferred but not yet recorded in the journal.
+    element: the number of elements of an array that its ITEM has transferred so far.  ITEM is executed again for each
+    further element.  listed: True if an element has been transferred but not yet recorded in the journal.
 
     work: the work counted against the limit.  costly: the part of ``work`` for operations that take longer than a
     statement.  owed: the steps of such operations that do not yet add up to a unit (emulator/numbers/work.py).

@@ -185,9 +185,9 @@ def measure(program: Program, result: Result) -> Timing:
 def shares(program: Program, result: Result) -> tuple[Time, ...]:
     """Return the processor time of each statement of ``program.statements``.
 
-    The sum of these times is the processor time that :func:`measure` gives.  Records and conversions of numbers
-    are not counted for each statement.  The total time for each kind of field is divided among the statements in
-    proportion to the numbers in their lists, and the total time for records in proportion to the executions of the
+    The sum of these times is the processor time that :func:`measure` gives.  Records and conversions of numbers are not
+    counted for each statement.  The total time for each kind of field is divided among the statements in proportion to
+    the numbers in their lists.  The total time for records is divided in proportion to the executions of the
     statements.
     """
     times_of = [Time()] * len(program.statements)

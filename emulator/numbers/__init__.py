@@ -49,7 +49,7 @@ INTERVAL = "interval:P"
 
 
 def hosted(name: str) -> Numbers | None:
-    """Return the arithmetic with this name if it is not decimal, such as ``float64`` or ``exact``, otherwise None.
+    """Return the arithmetic with this name, such as ``float64`` or ``exact``, or None for a decimal or unknown name.
 
     Raise ArgumentError if the number of bits or digits is out of range.
     """

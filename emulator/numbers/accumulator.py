@@ -1,9 +1,10 @@
 """The 1620's floating accumulator (FAC): zeros, signs, overflow and underflow of its decimal operations.
 
 Every function accepts the mantissa and exponent in FAC, then those of the other operand (see
-emulator/numbers/arithmetic.py), and returns mantissa, exponent and event.  The event is 0, or 1 to 7 for the error
-codes E1 to E7 that the machine typed with the result (C26-5619 p. 60; confirmed by executing IBM's code).  These rules
-are defined only here: the interpreter, the compiled kernel and the port all call these functions.
+emulator/numbers/arithmetic.py), and returns mantissa, exponent and event.  The event is 0 if there was no error.  The
+events 1 to 7 are the error codes E1 to E7, which the machine typed with the result (C26-5619 p. 60; confirmed by
+executing IBM's code).  These rules are defined only here: the interpreter, the compiled kernel and the port all call
+these functions.
 
 The functions use only integers and loops, so that numba can compile them.
 """

@@ -1,10 +1,11 @@
 """Decimal floating point as the 1620's subroutines computed it: pure functions on integers under named profiles.
 
-A number is a pair (mantissa, exponent) with the value ``mantissa * 10**(exponent - P)``.  It has P digits after the
-point, of which the first is not zero, and an exponent from -99 to +99 (C26-5619 p. 13, 38).  Zero is (0, -99), as it is
-printed.  Minus zero, which the machine marked with a flag, is (0, MINUS_ZERO).  A field in which nothing was stored is
-(0, UNDEFINED).  A field with a fixed-point number holds its value and the exponent FIXED_POINT.  The operations here
-may return an exponent out of range, which emulator/numbers/accumulator.py then handles.
+A number is a pair (mantissa, exponent) with the value ``mantissa * 10**(exponent - P)``.  The mantissa has P digits,
+the first of which is not zero, and the exponent is one of -99 to +99 (C26-5619 p. 13, 38).  The decimal point stands
+before the first digit.  Zero is (0, -99), as it is printed.  Minus zero, which the machine marked with a flag, is (0,
+MINUS_ZERO).  A field in which nothing was stored is (0, UNDEFINED).  A field with a fixed-point number holds its value
+and the exponent FIXED_POINT.  The operations here may return an exponent out of range, which
+emulator/numbers/accumulator.py then handles.
 
 The functions use only integers and loops, so that numba can compile them, and ``rules`` is a tuple of integers for
 the same reason.  The comments on :data:`PROFILES` give the source of each rule.

@@ -5,7 +5,8 @@ Only the number system itself knows the representation of its numbers.  Three ru
 - Input uses all digits of the columns or of the constant.  Output truncates the decimal digits of a number to those of
   the field and never rounds (C26-5619 p. 38-40).
 - An error that the 1620's subroutines report with a code is reported with the same code (emulator.errors.explanations).
-- A result that a system cannot represent or decide ends the run with :class:`Undecided`.  It is never guessed.
+- A result that a system cannot represent or decide ends the run with :class:`Undecided`.  Such a result is never
+  guessed.
 """
 
 from __future__ import annotations
@@ -195,7 +196,7 @@ class Numbers(ABC):
 def cut_decimal(whole: int, power: int, digits: int) -> tuple[int, int]:
     """Truncate ``whole * 10**power`` to the given number of digits.
 
-    Return mantissa and exponent; zero is (0, ZERO).
+    Return the mantissa and the exponent.  The result for zero is (0, ZERO).
     """
     if whole == 0:
         return 0, ZERO

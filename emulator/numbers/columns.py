@@ -27,10 +27,10 @@ def squeeze(columns: MutableSequence[int], width: int) -> tuple[int, int]:
     """Move the characters of a number to the left end of its field and remove blanks.  Return length and status.
 
     Leading blanks are ignored.  In a number without point and exponent, all other blanks count as zeros.  In a number
-    with a point or an exponent, trailing blanks are ignored.  Its inner blanks count as zeros, unless one of them may
-    belong to an exponent: then all are dropped (OPEN-QUESTIONS 6).  An E may begin an exponent, and so may a sign after
-    the first character; call both marks.  A blank may belong to an exponent if it follows the first mark, or if it is
-    between the point and the last mark.
+    with a point or an exponent, trailing blanks are ignored.  The inner blanks of such a number count as zeros.  But if
+    one of them may belong to an exponent, all inner blanks are dropped (OPEN-QUESTIONS 6).  A *mark* is a character
+    that may begin an exponent: an E, or a sign after the first character.  A blank may belong to an exponent if it
+    follows the first mark, or if it is between the point and the last mark.
     """
     first = 0
     while first < width and columns[first] == BLANK:

@@ -27,7 +27,7 @@ def low_digit(code: int) -> int:
     """Return the digit that IBM's library reads from a character inside a number, or -1 if it rejects the character.
 
     The library also accepts a blank, $, ) and *, because their two-digit codes are below the code of the minus sign.
-    It then reads the second digit of the code.
+    For these four characters, the function returns the second digit of the code.
     """
     if DIGIT <= code <= DIGIT + 9:
         return code - DIGIT

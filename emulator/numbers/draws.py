@@ -1,8 +1,8 @@
 """Random rounding: the random numbers of stochastic arithmetic, and the rounding of an integer with one of them.
 
-Each operation of a run that may round uses one random number, whether it rounds or not.  Operation n (from 1 on) of a
-run with seed s uses ``draw(key_of(s), n)``.  The numbers are therefore the same on every machine and in every engine,
-and any operation can be recomputed separately.
+Each operation that may round its result uses one random number of the run, even if the result is exact.  Operation n
+(from 1 on) of a run with seed s uses ``draw(key_of(s), n)``.  The numbers are therefore the same on every machine and
+in every engine, and any operation can be recomputed separately.
 
 Three rules of rounding are defined.  f is the part of a result beyond its last digit, in units of that digit, and
 0 <= f < 1.  A result with f = 0 is exact and is not rounded.

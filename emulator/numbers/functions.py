@@ -63,9 +63,10 @@ def function(name: str, mantissa: int, exponent: int, rules: Rules) -> Value:
 
 @lru_cache(maxsize=4096)
 def power(base: tuple[int, int], exponent: tuple[int, int], rules: Rules) -> Value:
-    """Return ``A ** B`` for a floating-point B; for a negative A, ``|A| ** B`` and error code F6, as IBM's GOTRAN does.
+    """Return ``A ** B`` for a floating-point B.
 
-    A power of zero is computed as ``0 ** J``, where J is the sign of B (OPEN-QUESTIONS 8).
+    For a negative A, return ``|A| ** B`` and error code F6, as IBM's GOTRAN does.  A power of zero is computed as
+    ``0 ** J``, where J is the sign of B (OPEN-QUESTIONS 8).
     """
     (mb, eb), (mx, ex) = base, exponent
     if mb == 0:
@@ -103,8 +104,8 @@ def integer_power(mantissa: int, exponent: int, count: int, rules: Rules) -> Val
 def decimal_chain(mantissa: int, exponent: int, count: int, rules: Rules) -> State:
     """Return the same result as :func:`whole_power`, computed with Python's module :mod:`decimal`.
 
-    Like :func:`whole_power`, the module computes all digits of a product before it rounds the product.  It is faster
-    for many products.
+    Like :func:`whole_power`, the module computes all digits of a product before it rounds the product.  This function
+    is faster than :func:`whole_power` if the power needs many products.
     """
     m, e, event = whole_power(mantissa, exponent, -1 if count < 0 else 1, rules)
     if event:

@@ -1,12 +1,12 @@
 """Numbers with error bounds: next to each number the program keeps a more precise value, its shadow.
 
-The shadow shows how far rounding has moved a number x.  It is the number y that the same operations compute from the
-shadows of the operands, in binary floating point of 2b + 64 bits, where b is the number of bits of x.  Let t be the
-number that exact arithmetic would hold at the same place of the program.  Then
+The shadow shows how far rounding has moved a number x.  This shadow is the number y that the same operations compute
+from the shadows of the operands.  They compute it in binary floating point of 2b + 64 bits, where b is the number of
+bits of x.  Let t be the number that exact arithmetic would hold at the same place of the program.  Then
 
-    |x - t| <= |x - y| + |y - t|,
+    |x - t| <= |x - y| + |y - t|.
 
-and if the shadow is at least twice as near to t as x is, |y - t| <= |x - y|, so that
+If the shadow is at least twice as near to t as x is, then |y - t| <= |x - y|, and therefore
 
     |x - t| <= 2 |x - y|.
 

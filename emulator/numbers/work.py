@@ -7,10 +7,10 @@ most STEPS - 1 operations.  The estimate is made before the operation, in intege
 statement on every machine.
 
 Times were measured in microseconds with CPython 3.11 on one core of an AMD EPYC.  A step is an operation of the
-eight-digit arithmetics, which takes 0.9 to 1.5 microseconds; the estimates assume 1.2.  A unit of work therefore takes
-41 microseconds, and 5,000,000 units take 205 seconds.  In the table, the columns 300 to 100,000 give the measured time
-of an operation on numbers of that many bits, and the last column gives the time that the formula estimates for 100,000
-bits, all in microseconds.
+eight-digit arithmetics, which takes 0.9 to 1.5 microseconds.  The estimates assume 1.2 microseconds.  A unit of work
+therefore takes 41 microseconds, and 5,000,000 units take 205 seconds.  In the table, the columns 300 to 100,000 give
+the measured time of an operation on numbers of that many bits, and the last column gives the time that the formula
+estimates for 100,000 bits, all in microseconds.
 
 =====================  ====  ======  =======  ========  ======================================  ==========
 bits                    300   3,000   10,000   100,000  formula, in steps                       at 100,000
@@ -18,7 +18,7 @@ bits                    300   3,000   10,000   100,000  formula, in steps       
 product                 0.4      16      107     4,070  n * sqrt(n) / 8,000                          4,740
 quotient, gcd, root     1.5      27      227    18,300  n * n / 650,000                             18,500
 EXP, LOG, SIN, ATAN      18   1,160   11,900   748,000  25 + n * n / 12,000 (mpmath)             1,000,000
-to a decimal            130     580    3,100   265,000  90 + n * n / 40,000 (mpmath)               300,000
+conversion to decimal   130     580    3,100   265,000  90 + n * n / 40,000 (mpmath)               300,000
 =====================  ====  ======  =======  ========  ======================================  ==========
 
 SIN, COS, ATAN, EXP and LOG of a decimal number take 40 to 100 steps, and up to 420 if the argument is tiny and its last

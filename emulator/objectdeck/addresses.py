@@ -1,9 +1,9 @@
 """Addresses in the object program, and the code that computes the address of an array element.
 
 Element 1 of an array has the highest address, and each element takes ten positions.  The code for a subscript writes
-the address of element 0 into the next instruction, and subtracts ten times the subscript from this address.  It
-multiplies by ten by subtracting one digit further left.  Before that, the code multiplies the variable by its factor
-or, for the second subscript, by the number of rows.
+the address of element 0 into the next instruction, and subtracts ten times the subscript from this address.  To
+subtract ten times the subscript, the code subtracts the subscript one digit further left.  Before that, the code
+multiplies the variable by its factor or, for the second subscript, by the number of rows.
 """
 
 from dataclasses import dataclass

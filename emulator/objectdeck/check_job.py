@@ -8,7 +8,7 @@ This script needs nothing but Python 3.  ``hull1620 export-job`` writes it as ch
 
 ``disk`` converts a disk in text form (sector number, comma, 105 digits) to the form that SIMH attaches.  ``join`` puts
 decks behind one another.  ``compare`` lists the differences by class.  ``compare`` exits with 1 if a difference belongs
-to no known class, if the order differs, or if no card was punched; every error exits with 2.
+to no known class, if the order differs, or if no card was punched.  After an error, every command exits with 2.
 """
 
 from __future__ import annotations

@@ -29,7 +29,7 @@ class Extent:
     inferred: int
 
     def excess(self, core: int) -> int:
-        """Return the positions that program and data need in excess of a machine's core; negative if some are free."""
+        """Return by how many positions program and data exceed a machine's core, or a negative number if they fit."""
         return self.data + self.code - _room(core)
 
     def overlap(self, core: int) -> str:

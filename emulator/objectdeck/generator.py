@@ -60,9 +60,9 @@ class _Generator:
     """The state of the translation of one program to machine code.
 
     ``places`` holds the position of the code for each instruction of the emulator.  ``formats`` is the number of
-    FORMATs translated so far.  If an instruction does not use all of its twelve digits, IBM's compiler filled them with
-    old digits from its buffer: a PAUSE has the last ten digits of the last call (``operands``), and the instruction
-    that begins a DO may have one digit of an earlier address (``unused``).
+    FORMATs translated so far.  If an instruction does not use all of its twelve digits, IBM's compiler left old digits
+    of its buffer in the unused ones.  A PAUSE therefore contains the last ten digits of the last call (``operands``),
+    and the instruction that begins a DO may contain one digit of an earlier address (``unused``).
     """
 
     program: Program
@@ -251,7 +251,8 @@ class _Generator:
     def _items(self, instruction: Instruction, loops: tuple[int, ...] | None) -> None:
         """Output the calls that transfer a list item.
 
-        For the last item of a list, ``loops`` holds the loops that end after the item; otherwise it is None.
+        If the item is the last one of its list, ``loops`` holds the loops that end after it.  For other items,
+        ``loops`` is None.
         """
         count = op.repeats(instruction)
         for element in range(count):

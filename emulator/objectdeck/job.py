@@ -1,7 +1,7 @@
 """Export a program as a job for one of two compilers of the 1960s: FORTRAN II-D under Monitor I, or PDQ FORTRAN.
 
-A job is a folder of text files for the 1620 simulator of SIMH.  It contains no code of IBM's: the operator adds the
-compiler.  The program is exported card by card.  A card is changed only if the compiler does not accept it, and
+A job is a folder of text files for the 1620 simulator of SIMH.  The folder contains no code of IBM's: the operator adds
+the compiler.  The program is exported card by card.  A card is changed only if the compiler does not accept it, and
 :attr:`Job.changes` records each change.  The rules were found by running both compilers under Open SIMH.
 """
 

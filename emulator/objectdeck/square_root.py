@@ -1,13 +1,13 @@
 """A square root routine for the 1620, written for this project: no known deck contains IBM's own.
 
-It replaces the number in the accumulator, positions 51 to 60, by its square root truncated to eight digits.  The sign
-of the number is ignored, and a zero becomes +0.  The exponent is halved; if it is odd, the decimal point of the
-mantissa is moved by one digit first.
+The routine replaces the number in the accumulator, positions 51 to 60, by its square root truncated to eight digits.
+The sign of the number is ignored, and a zero becomes +0.  If the exponent is odd, the decimal point of the mantissa is
+first moved by one digit.  The exponent is then halved.
 
-The digits come from subtraction alone.  A number ``b`` is 5 at first.  It is subtracted from five times the mantissa as
-long as the result stays positive, and grows by ten after each subtraction.  Then ``b`` moves one digit to the right,
-with a zero inserted before its last digit, and the same steps give the next digit of the root.  The digits of ``b``
-before the 5 are those of the root.  The routine needs the 1620's indirect addressing.
+The digits come from subtraction alone.  A number ``b`` is 5 at first.  The routine subtracts ``b`` from five times the
+mantissa as long as the result stays positive, and adds ten to ``b`` after each subtraction.  Then ``b`` moves one digit
+to the right, with a zero inserted before its last digit, and the same steps give the next digit of the root.  The
+digits of ``b`` before the 5 are those of the root.  The routine needs the 1620's indirect addressing.
 """
 
 from emulator.objectdeck import digits as d

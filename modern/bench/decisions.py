@@ -45,8 +45,8 @@ _PATIENCE = 2
 class Decision:
     """One decision of a run: its card, the branch taken, and the number that decided it.
 
-    The outcome is -1, 0 or 1 for an IF, the number of the label for a computed GO TO, and at the end of a DO 1 if the
-    loop is repeated, otherwise 0.
+    The outcome of an IF is -1, 0 or 1, and that of a computed GO TO is the number of the label.  The outcome at the end
+    of a DO is 1 if the loop is repeated and 0 if it ends.
     """
 
     card: int

@@ -71,8 +71,8 @@ class Row:
 class Bench:
     """The results of a measurement.
 
-    ``rows`` has the times of the engines, and ``starts`` the times of whole processes that run one deck.  ``compiler``
-    is the version of the Fortran compiler, or empty if there is none.
+    ``rows`` has the times of the engines, and ``starts`` has the times of whole processes that run one deck.
+    ``compiler`` is the version of the Fortran compiler, or empty if there is none.
     """
 
     rows: tuple[Row, ...]
@@ -148,7 +148,7 @@ def measure(count: int, say: Say = lambda line: None) -> Bench:
 
 
 def _starts(text: str, folder: Path, say: Say) -> tuple[Figure, ...]:
-    """Time the first process that runs a deck, which compiles the engine, and later processes, which load it."""
+    """Time a first process, which compiles the engine to run a deck, and later ones, which load the compiled engine."""
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(folder / "cache")}
 
     def process() -> None:

@@ -97,8 +97,8 @@ def confirmed(name: str) -> Iterator[tuple[str, str]]:
     """Remove each emendation of a program in turn, and yield its identifier and the check that notices the removal.
 
     The check is ``compiler`` if the deck does not compile, and ``library`` if the cards punched on the library differ
-    from the print or the run does not end.  It is ``no change`` if the object program is the same, and ``nothing`` if
-    the object program is another one but punches the printed cards.
+    from the print or the run does not end.  If no check notices the removal, the second value is ``no change`` if the
+    object program is the same, and ``nothing`` if it has changed but still punches the printed cards.
     """
     entry = programs.built_in(name)
     base = object_cards(programs.program(name), CORE)

@@ -60,7 +60,7 @@ class Comparison:
     error: str = ""
 
     def differences(self) -> Iterator[tuple[str, str]]:
-        """Yield pairs of cards or lines that differ: that of the library, then that of the emulator."""
+        """Yield the cards or lines that differ in pairs: that of the library first, then that of the emulator."""
         for library, emulator in zip(self.library, self.emulator, strict=True):
             yield from ((a, b) for a, b in zip_longest(library, emulator, fillvalue="") if a != b)
 

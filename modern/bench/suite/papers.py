@@ -1,8 +1,8 @@
 """Benchmarks of the later papers: Appel and Will's convex edges, hidden lines, and Kovalevsky and Schulz's cell lists.
 
-Appel and Will's method is timed on 60 points in exact arithmetic with two tests for an edge. Both project the points
-along a line. One test sorts the images by angle; the other makes a single pass over the unsorted images. For Kovalevsky
-and Schulz's cell list, the output gives the seconds, and the microseconds for each local corner.
+Appel and Will's method is timed on 60 points in exact arithmetic with two tests for an edge. Both tests project the
+points along a line. One test sorts the images by angle, and the other makes a single pass over the unsorted images.
+For Kovalevsky and Schulz's cell list, the output gives the seconds, and the microseconds for each local corner.
 """
 
 import random

@@ -1,9 +1,10 @@
 """Time the built-in studies: the rows that two cores compute in a second, and the time to the first rows.
 
 ``python -m modern.bench.suite.studies [NAME ...]`` prints a row of the table in ``docs/explanation/studies.md`` for
-each study.  The rate is measured in processor time, so that other activity on the machine affects it little. It is
-measured on a few samples of each cell, and each cell counts in proportion to the number of its samples.  For the first
-rows, a study is started in a new process without compiled code; the time ends with the first file of rows.
+each study.  The rate is measured in processor time, so that other activity on the machine affects it little. The rate
+is measured on a few samples of each cell, and each cell counts in proportion to the number of its samples.  To measure
+the time to the first rows, a study is started in a new process without compiled code.  The time ends when the first
+file of rows exists.
 """
 
 import os
