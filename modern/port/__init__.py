@@ -1,8 +1,9 @@
 """Butler's three programs as one modern procedure that runs in any arithmetic.
 
-:mod:`modern.port.procedure` is the entry point and joins the parts: :mod:`~modern.port.points` reads the input,
-:mod:`~modern.port.opening` is program 1, :mod:`~modern.port.polygon` program 2, :mod:`~modern.port.polyhedron` program
-3, :mod:`~modern.port.growth` the loop that programs 2 and 3 share, and :mod:`~modern.port.outcome` the result.
+:mod:`modern.port.procedure` is the entry point and joins the parts. :mod:`~modern.port.points` reads the input, and
+:mod:`~modern.port.outcome` makes the result. :mod:`~modern.port.opening` is program 1, :mod:`~modern.port.polygon` is
+program 2, :mod:`~modern.port.polyhedron` is program 3, and :mod:`~modern.port.growth` is the loop that programs 2 and 3
+share.
 
 To add an arithmetic for the port:
 

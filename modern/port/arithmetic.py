@@ -39,7 +39,10 @@ class Arithmetic(ABC):
 
     @abstractmethod
     def number(self, value: Exact, minus: bool = False) -> Scalar:
-        """Convert a coordinate to this arithmetic; ``minus`` marks minus zero.  Raise RangeError if it is too large."""
+        """Convert a coordinate to this arithmetic.
+
+        ``minus`` is True for minus zero.  Raise RangeError if the coordinate is too large.
+        """
 
     def tolerance(self, size: Fraction, degree: int) -> Scalar:
         """Convert the tolerance ``size`` to a number that can be compared with quantities of degree ``degree``.
@@ -71,11 +74,17 @@ class Arithmetic(ABC):
 
     @abstractmethod
     def exact(self, value: Scalar, degree: int) -> Exact:
-        """Return the exact value of a number of this arithmetic; ``degree`` counts the coordinates multiplied in it."""
+        """Return the exact value of a number of this arithmetic.
+
+        ``degree`` is the number of coordinates that are multiplied in ``value``.
+        """
 
     @abstractmethod
     def text(self, value: Scalar, degree: int) -> str:
-        """Return the exact value as text, ``-0`` for minus zero; ``degree`` counts the coordinates multiplied in it."""
+        """Return the exact value of a number as text, or ``-0`` for minus zero.
+
+        ``degree`` is the number of coordinates that are multiplied in ``value``.
+        """
 
     def exacts(self, values: Vector, degree: int) -> list[Exact]:
         return [self.exact(value, degree) for value in values]

@@ -1,6 +1,6 @@
 """The arithmetic ``exact``, which computes with integers in a unit that divides all coordinates.
 
-If every number of the procedure fits in 64 bits the vectors hold int64, otherwise Python's integers.
+If every number of the procedure fits in 64 bits, the vectors hold int64. Otherwise they hold Python's integers.
 """
 
 import math
@@ -20,7 +20,7 @@ _SPARE_BITS = 5
 
 @dataclass(frozen=True)
 class ExactArithmetic(Arithmetic):
-    """Exact arithmetic for Butler's procedure: integers in units of 1/``unit``; ``dtype`` is int64 or object."""
+    """Exact arithmetic for Butler's procedure: integers in units of 1/``unit``. ``dtype`` is int64 or object."""
 
     unit: int
     dtype: Any

@@ -94,7 +94,7 @@ def with_kernels(grow: Function, find_satisfied: Function) -> Steps:
     """Return the two steps of program 3 that run the given kernels, compiled or as plain Python functions."""
 
     def stage(hull: Polyhedron, first: bool) -> growth.Grown | None:
-        """Add the next vertex to the hull or, if no history is recorded, as many vertices as the kernel can add."""
+        """Add the next vertex to the hull. If no history is recorded, add as many vertices as the kernel can add."""
         spare = 6 * len(hull.table) + _SPARE_SLOTS + len(hull.points) // _POINTS_PER_SLOT
         cloud, slots, state = _cloud(hull), _slots(hull.table, spare), _state(hull)
         scratch = workspace.scratch_for(len(slots.alive), slots.coefficients.dtype)

@@ -101,9 +101,9 @@ class Grown:
 class Progress:
     """The points found so far to be inside or on the boundary, and the modern corrections that changed a step.
 
-    ``history`` has, for each approximation H_j (the hull after step j), the step that led to it and an array with one
-    column for each equation of H_j: the input indices of the points that define the equation.  It is None if the caller
-    did not request the history.
+    ``history`` has an entry for each approximation H_j (the hull after step j): the step that led to H_j, and an array
+    with one column for each equation of H_j.  A column has the input indices of the points that define the equation.
+    ``history`` is None if the caller did not request the history.
     """
 
     history: list[tuple[Grown, NDArray[np.int64]]] | None = None

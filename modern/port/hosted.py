@@ -86,7 +86,7 @@ def _truncated(system: DecimalNumbers, value: Exact) -> tuple[int, int]:
 
 @dataclass(frozen=True)
 class HostedArithmetic(Arithmetic):
-    """A number system of the emulator for Butler's procedure; vectors hold :class:`HostedNumber`."""
+    """A number system of the emulator for Butler's procedure. Its vectors hold :class:`HostedNumber`."""
 
     system: Numbers
 

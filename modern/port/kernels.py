@@ -1,10 +1,11 @@
 """The loop of program 3, which adds vertices to the first hull H_1, compiled by numba for floating-point numbers.
 
 The steps, decisions and numbers are those of :mod:`modern.port.growth` and :mod:`modern.port.polyhedron`, and the
-formulas are the same functions. A stage is the addition of one vertex. These two modules run the exceptional stages: a
-stage that ends without a hull, a stage that is the first to need one of two corrections of the listing (for pairs of
-equal planes, and for planes through the inside point C), and a stage whose new vertex is already a vertex. For such a
-stage the kernel returns UNUSUAL and changes only the number of the equation to check.
+formulas are the same functions. A stage is the addition of one vertex. The kernel leaves three kinds of exceptional
+stages to these two modules: a stage that ends without a hull, a stage that is the first to need one of two corrections
+of the listing, and a stage whose new vertex is already a vertex. The first correction concerns pairs of equal planes,
+and the second concerns planes through the inside point C. For an exceptional stage the kernel returns UNUSUAL and
+changes only the number of the equation to check.
 """
 
 from typing import Any
@@ -158,7 +159,10 @@ def planes_to_replace(point: Any, slots: Any, scratch: Any, state: NDArray[np.in
 
 
 def sort_descending(order: NDArray[np.int64], values: NDArray[Any], first: int, last: int) -> None:
-    """Sort planes by value, largest first; of equal values the later slot comes first (Shell's method)."""
+    """Sort planes by value, largest first, by Shell's method.
+
+    Of planes with equal values, the one in the later slot comes first.
+    """
     gap = 1
     while gap < last - first:
         gap = 3 * gap + 1
@@ -177,9 +181,9 @@ def sort_descending(order: NDArray[np.int64], values: NDArray[Any], first: int, 
 def three_planes(count: int, index: int, cloud: Any, slots: Any, scratch: Any, state: Any, rules: Any) -> int:
     """Write three new planes into empty slots for each plane that the new vertex is outside of.
 
-    Return THROUGH if a new plane contains the inside point C, a case for which the listing had to be corrected,
-    otherwise 0. Return -1 if :mod:`modern.port.polyhedron` must compute the stage instead, because a plane is
-    degenerate or rounding puts the new vertex outside it.
+    Return -1 if a plane is degenerate or if rounding puts the new vertex outside a new plane. The module
+    :mod:`modern.port.polyhedron` must then compute the stage. Otherwise, return THROUGH if a new plane contains the
+    inside point C, a case for which the listing had to be corrected, and 0 if none does.
     """
     new, slot, corrections = state[VERTICES], state[MADE], 0
     point = corner(cloud.coordinates, index)
@@ -252,7 +256,7 @@ def doubles(defining: NDArray[np.int64], first: int, last: int, scratch: Any) ->
 def takes_last_pair(partner: NDArray[np.int64], count: int) -> bool:
     """Return True if the listing would fail at these new planes.
 
-    It fails if at most one new plane follows a pair of equal planes that it deletes.
+    The listing fails if at most one new plane follows a pair of equal planes that the listing deletes.
     """
     remaining = count
     for k in range(count):

@@ -67,7 +67,8 @@ def polygon_edges(
 ) -> tuple[Face, ...]:
     """Return the sides of a polygon as faces.
 
-    ``projection`` is the number of the coordinate that was projected away, from 1; its coefficient is 0.
+    ``projection`` is the number of the coordinate that was projected away, from 1.  The coefficient of this coordinate
+    is 0.
     """
     arithmetic, faces = table.arithmetic, []
     for k, satisfied in enumerate(on):

@@ -168,7 +168,7 @@ def middle(arithmetic: Arithmetic, points: PointTable, three: tuple[int, int, in
 
 
 def lowered(ends: NDArray[np.int64], not_vertices: Sequence[int]) -> list[int]:
-    """Return the number of the vertex at each end of each line; only the vertices are numbered."""
+    """Return the number of the vertex at each end of each line. The numbering skips points that are not vertices."""
     return [end - sum(g < end for g in set(not_vertices)) for end in ends.ravel().tolist()]
 
 

@@ -117,8 +117,8 @@ class Polyhedron:
     def note(self, fresh: Fresh, size: int) -> None:
         """Record each correction without which Butler's listing would stop at this step.
 
-        It stops if a new plane contains the inside point C, or if the ``size`` entries that the step needs exceed its
-        table of planes.
+        The listing stops if a new plane contains the inside point C, or if the step needs more entries (``size``) than
+        the listing's table of planes has.
         """
         if fresh.through:
             self.progress.correct(growth.THROUGH_CENTRE)

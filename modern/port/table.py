@@ -55,9 +55,9 @@ _BLOCK = 1 << 16
 
 @dataclass(frozen=True)
 class Slack:
-    """The tolerance e of the thesis's chapter 7: values from -e to +e count as zero (p. 117); ``size`` is e.
+    """The tolerance e of the thesis's chapter 7: values from -e to +e count as zero (p. 117).
 
-    If ``relative`` is true, e is multiplied by the largest coefficient A, B or C of the equation.
+    ``size`` is e. If ``relative`` is true, e is multiplied by the largest coefficient A, B or C of the equation.
     """
 
     arithmetic: Arithmetic
@@ -65,7 +65,7 @@ class Slack:
     relative: bool
 
     def of(self, coefficients: tuple[Vector, ...]) -> Vector:
-        """Return the tolerance e of each plane equation; ``coefficients`` has the rows A, B, C and constant term."""
+        """Return the tolerance e of each plane equation. ``coefficients`` has the rows A, B, C and constant term."""
         arithmetic = self.arithmetic
         degree = 1 if self.relative else len(coefficients) - 1
         e = arithmetic.filled([arithmetic.tolerance(self.size, degree)] * len(coefficients[0]))
@@ -189,8 +189,8 @@ def turned(
 ) -> tuple[Vector, NDArray[np.bool_]]:
     """Return the equations. Those whose value at the inside point C is positive are multiplied by -1.
 
-    Also return a mask of the equations whose value at C is zero. ``centre`` is None if the origin was moved to C, so
-    that the constant term is the value at C (thesis p. 118).
+    Also return a mask of the equations whose value at C is zero. ``centre`` is None if the origin was moved to C. The
+    constant term is then the value at C (thesis p. 118).
     """
     values = coefficients[-1] if centre is None else at(tuple(coefficients), centre)
     signs = arithmetic.sign(values)

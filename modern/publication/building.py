@@ -1,6 +1,6 @@
 """The functions that the builds of the site, the book and the deposit share.
 
-Each build is a function that raises :class:`BuildError` with a message of one line; :func:`run` calls the function and
+Each build is a function that raises :class:`BuildError` with a message of one line. :func:`run` calls the function and
 turns the error into an exit code.
 """
 

@@ -180,9 +180,9 @@ class _Rail:
 class _Plan:
     """The layout of a page before its lines are drawn.
 
-    ``lanes`` has the lane of each rail by target and side, and ``landed`` the boxes to which connectors lead. For
-    each box, ``turns`` has the vertical coordinate of the turn below the box, ``lands`` that of the connector above the
-    box, and ``joins`` that of the lower end of its rails.
+    ``lanes`` has the lane of each rail by target and side, and ``landed`` has the boxes to which connectors lead. For
+    each box, ``turns`` has the vertical coordinate of the turn below the box, ``lands`` has that of the connector above
+    the box, and ``joins`` has that of the lower end of the box's rails.
     """
 
     height: int

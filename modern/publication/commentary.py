@@ -1,6 +1,6 @@
 """The commentary on the programs: the purpose of each block of statements and the meaning of each variable.
 
-The texts are data, ``fortran_src/commentary/PROGRAM.toml``. A block contains the cards from one place to another;
+The texts are data, ``fortran_src/commentary/PROGRAM.toml``. A block contains the cards from one place to another.
 :mod:`modern.publication.facing` explains the places.
 """
 
@@ -22,7 +22,7 @@ class Block:
     """Consecutive cards with one purpose.
 
     ``cards`` are their numbers in the deck. ``steps`` names rows of the concordance with chapter 3 of the thesis
-    (``docs/reference/concordance.md``). ``marks`` names variables that refer to points; the picture of the block
+    (``docs/reference/concordance.md``). ``marks`` names variables that refer to points. The picture of the block
     highlights these points (:mod:`modern.publication.moments`).
     """
 
@@ -37,8 +37,8 @@ class Block:
 class Gloss:
     """The explanation of a variable of a program.
 
-    ``limits`` has the smallest and the largest value of an integer variable; it is None for a floating-point variable.
-    ``set_in`` has the titles of the blocks that change the variable.
+    ``limits`` has the smallest and the largest value of an integer variable. ``limits`` is None for a floating-point
+    variable. ``set_in`` has the titles of the blocks that change the variable.
     """
 
     name: str
@@ -57,7 +57,7 @@ class Commentary:
 
 @cache
 def commentary(program: str) -> Commentary:
-    """Return the commentary on a built-in program; variants of a program share its text.
+    """Return the commentary on a built-in program. Variants of a program share one text.
 
     A block ends before the first card of the next block. The last card that the file names for a block does not decide
     its end, because a variant may lack this card.  Raise KeyError for an unknown program, and ValueError if the file

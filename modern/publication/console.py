@@ -69,7 +69,10 @@ def console_page() -> str:
 
 
 def parting_page() -> str:
-    """Return the HTML of the page that compares the programs with exact arithmetic. It initially shows one result."""
+    """Return the HTML of the page that compares the programs with exact arithmetic.
+
+    The page initially shows one result.
+    """
     sets = point_sets()
     first = next(iter(sets.values()))
     return fill(_frame("parting.html"), POINTS=html.escape(first), SETS=_json(sets), FIRST=_json(parted(first)))
@@ -188,7 +191,7 @@ def _is_loaded(name: str) -> bool:
 
 
 def _stored(files: Mapping[str, bytes]) -> bytes:
-    """Return an uncompressed archive of the files that a page needs; the whole download is compressed later."""
+    """Return an uncompressed archive of the files that a page needs. The whole download is compressed later."""
     return zipped({name: data for name, data in files.items() if _is_loaded(name)}, compression=zipfile.ZIP_STORED)
 
 

@@ -78,7 +78,7 @@ class Parts:
 def source_files() -> tuple[str, ...]:
     """Return the sorted paths of the project's files.
 
-    In a git checkout these are the tracked files; elsewhere they are all files except build results and caches.
+    In a git checkout these are the tracked files.  Elsewhere they are all files except build results and caches.
     """
     if (ROOT / ".git").exists():
         listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, check=True).stdout
@@ -92,8 +92,8 @@ def source_files() -> tuple[str, ...]:
 def gather(dist: Path, rows: Path | None = None) -> Parts:
     """Return the project's files, the results of all builds, and the third-party packages that were collected.
 
-    ``dist`` is the folder of the builds, ``rows`` a folder with rows of studies to include.  Raise BuildError if the
-    result of a build is missing; the message names the command that makes it.
+    ``dist`` is the folder of the builds, and ``rows`` is a folder with rows of studies to include.  Raise BuildError if
+    the result of a build is missing.  The message names the command that makes it.
     """
     from modern.bench.benchmark import benchmark  # its imports take a second
 
@@ -139,9 +139,10 @@ def described() -> Work:
 
 
 def with_descriptions(parts: Parts) -> Parts:
-    """Return a deposit with the files that describe it added.
+    """Return the files of a deposit, together with the files that describe it.
 
-    These are README.txt, codemeta.json, the tables of the studies with datapackage.json, and the RO-Crate metadata.
+    The files that describe it are README.txt, codemeta.json, the tables of the studies with datapackage.json, and the
+    RO-Crate metadata.
     """
     about = described()
     files = dict(parts.files)

@@ -1,6 +1,6 @@
 """The interface between the emulator and the page that controls it: load a program and a deck, run, and operate.
 
-Requests and answers are plain data that JSON can represent; the page is ``docs/console``. The machine runs in slices of
+Requests and answers are plain data that JSON can represent. The page is ``docs/console``. The machine runs in slices of
 some milliseconds. The operator has the same questions, commands and log as on the command line
 (:mod:`emulator.machine.operator`). Python in the browser cannot wait for the visitor: if the machine halts and the
 visitor has not answered, the slice ends, and the next slice continues from the halt. To go back, a new session repeats
@@ -114,7 +114,7 @@ class Desk:
     check = staticmethod(panel.compile_messages)
 
     def load(self, request: Answer) -> Answer:
-        """Compile a program and load a deck; the machine then waits for START.
+        """Compile a program and load a deck. The machine then waits for START.
 
         In the request, ``program`` and ``deck`` are each a built-in name or a pair of name and text. The deck ``""`` is
         empty, and the deck ``"PUNCHED"`` has the cards that the last run punched. ``switches`` lists the sense switches
@@ -183,11 +183,11 @@ class Desk:
         values:
 
         ``events`` lists the events of this part of the run, each as kind and text. ``card`` is the card that is
-        executed next, ``statement`` its number in the run, and ``read`` the number of cards read. ``time`` is the time
-        on a 1620 with its bounds, and ``seconds`` is this time as a number. ``stands`` is the reason why the machine
-        waits, or empty. ``waits`` is ``typed`` if the machine waits for a line with ``fields``, ``answer`` if it waits
-        for an action, or empty. ``registers`` has the floating-point and the fixed-point accumulator. ``picture``,
-        ``stages`` (the number of hulls so far) and ``wrote`` (the fields written) come from
+        executed next, ``statement`` is its number in the run, and ``read`` is the number of cards read. ``time`` is the
+        time on a 1620 with its bounds, and ``seconds`` is this time as a number. ``stands`` is the reason why the
+        machine waits, or empty. ``waits`` is ``typed`` if the machine waits for a line with ``fields``, ``answer`` if
+        it waits for an action, or empty. ``registers`` has the floating-point and the fixed-point accumulator.
+        ``picture``, ``stages`` (the number of hulls so far) and ``wrote`` (the fields written) come from
         :mod:`modern.publication.panel`. A run that never ends is stopped, and ``repeats`` is the number of statements
         that it repeats.
 

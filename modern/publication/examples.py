@@ -26,7 +26,7 @@ VERDICTS = {EXACT: "identical", ORDER: "the same hull in another order"}
 class Source:
     """A line of the OCR text.
 
-    ``line`` is its number in the file of the witness, and ``at`` its number in the whole document, or 0 if unknown.
+    ``line`` is its number in the file of the witness, and ``at`` is its number in the whole document, or 0 if unknown.
     ``changed`` has the spans of characters that rows of the apparatus change.
     """
 
@@ -42,8 +42,8 @@ class Shown:
     """A card as printed and as our run punches it.
 
     ``print`` is the card in the corrected text. ``run`` is the card of the run, or None for an input deck. ``sources``
-    are the lines of the witness that begin on this card, ``continued`` the numbers of lines that began on an earlier
-    card. ``differs`` has the spans of ``run`` that differ from ``print``.
+    are the lines of the witness that begin on this card, and ``continued`` has the numbers of lines that began on an
+    earlier card. ``differs`` has the spans of ``run`` that differ from ``print``.
     """
 
     number: int
@@ -59,7 +59,7 @@ class Part:
     """The cards or typed lines of one device in a run of one program.
 
     ``stated`` is True for lines that the thesis describes but does not print. ``reports`` has the verdicts for both
-    states of program 1, and ``rows`` the emendations of these cards.
+    states of program 1, and ``rows`` has the emendations of these cards.
     """
 
     example: int
@@ -137,7 +137,10 @@ def _part(chapter: Chapter, entry: DeviceLayout, lines: dict[str, list[Segments]
 def _shown(
     number: int, card: Card | None, run: str | None, lines: dict[str, list[Segments]], shown_lines: set[str]
 ) -> Shown:
-    """Compare a printed card with the run; add the lines of the witness that begin on it to ``shown_lines``."""
+    """Compare a printed card with the run.
+
+    Add the lines of the witness that begin on this card to ``shown_lines``.
+    """
     line_ids = tuple(dict.fromkeys(lines[token.line][0].id for token in card.tokens)) if card else ()
     new = tuple(line for line in line_ids if line not in shown_lines)
     shown_lines |= set(new)
@@ -169,7 +172,10 @@ def _source(family: Sequence[Segments]) -> Source:
 
 
 def differing(expected: str, actual: str) -> Spans:
-    """Return the spans of ``actual`` that differ from ``expected``; all of ``actual`` if it only lacks characters."""
+    """Return the spans of ``actual`` that differ from ``expected``.
+
+    If ``actual`` only lacks characters of ``expected``, return one span of all of ``actual``.
+    """
     if expected == actual:
         return ()
     codes = SequenceMatcher(None, expected, actual, autojunk=False).get_opcodes()

@@ -1,6 +1,6 @@
 """The facing text of a listing: the OCR text (witness) of each card next to the card, with the rows that change it.
 
-The module collects only facts; the site and the book present them.
+The module collects only facts. The site and the book present them.
 
 Every card has a *place*, a name that is counted from the programmer's statement numbers and therefore stays valid when
 the numbering of the deck changes. ``147+2`` is the second statement after statement 147. ``0+1`` is the first statement
@@ -58,10 +58,10 @@ class Card:
     """A card of a deck with the witness from which it was made.
 
     ``number`` is the number of the card in the deck, counted from 1. ``label`` is its statement number or 0, and
-    ``page`` the page of the thesis. ``also`` has further names of the card in the same form as ``place``. ``witness``
-    is empty for a card that the witness lacks. ``changed`` has the ranges of characters that differ from the witness.
-    ``rows`` are the ids of the rows that changed the card, except those that changed most cards of the deck. ``layers``
-    are the layers of these rows. ``variants`` has the card as optional layers would change it.
+    ``page`` is the page of the thesis. ``also`` has further names of the card in the same form as ``place``.
+    ``witness`` is empty for a card that the witness lacks. ``changed`` has the ranges of characters that differ from
+    the witness. ``rows`` are the ids of the rows that changed the card, except those that changed most cards of the
+    deck. ``layers`` are the layers of these rows. ``variants`` has the card as optional layers would change it.
     """
 
     number: int

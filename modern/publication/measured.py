@@ -28,9 +28,9 @@ class Run:
     """A run of one program in an example of the thesis.
 
     ``executions`` and ``times`` (of the processor) have an entry for each executed card by its number. ``statements``
-    is the number of executed statements. ``processor`` is the processor time, and ``total`` the time with reader, punch
-    and typewriter, without overlap. ``rows`` divide the total time by cause: first the causes in the processor, then
-    the devices.
+    is the number of executed statements. ``processor`` is the processor time, and ``total`` is the time with reader,
+    punch and typewriter, without overlap. ``rows`` divide the total time by cause: first the causes in the processor,
+    then the devices.
     """
 
     example: int
@@ -84,7 +84,10 @@ class Weight:
 
 @cache
 def weights(program: str) -> dict[int, Weight]:
-    """Return the weights of a program's cards by card number; a program that was not measured has none."""
+    """Return the weights of a program's cards by card number.
+
+    The result is empty for a program that was not measured.
+    """
     with TABLE.open(encoding="utf-8", newline="") as file:
         return {
             int(row["card"]): Weight(tuple(int(row[check]) for check in DETECTED_BY), row["formula"])

@@ -60,7 +60,8 @@ class Part:
 class Process:
     """A run of the software that produced files of the deposit.
 
-    ``versions`` are those of the packages that the run used, and ``results`` the paths of the files that it produced.
+    ``versions`` are those of the packages that the run used, and ``results`` are the paths of the files that it
+    produced.
     """
 
     name: str
@@ -128,7 +129,7 @@ def codemeta(about: Work) -> str:
 def crate(about: Work, parts: Mapping[str, Part], processes: Sequence[Process]) -> str:
     """Return the text of ro-crate-metadata.json.
 
-    ``parts`` maps a path to its description; the path of a folder ends with a slash.  ``processes`` are the runs that
+    ``parts`` maps a path to its description.  The path of a folder ends with a slash.  ``processes`` are the runs that
     produced files of the deposit, described as a Process Run Crate.
     """
     from rocrate.model.contextentity import ContextEntity

@@ -15,9 +15,9 @@ _ROW = re.compile(r"\b(?:P[123]|C[46]|AW|NN|KS)-\d+\b")
 class Item:
     """A numbered item of a Markdown file.
 
-    ``text`` is the Markdown after the title.  ``section`` is the heading above the item, and ``preamble`` the text
-    between that heading and the item if the item is the first of its section.  ``decks`` are the decks
-    that show a fault, and ``rows`` the rows of the apparatus, as far as the item names them.
+    ``text`` is the Markdown after the title.  ``section`` is the heading above the item, and ``preamble`` is the text
+    between that heading and the item if the item is the first of its section.  ``decks`` are the decks that the item
+    names because they show a fault, and ``rows`` are the rows of the apparatus that the item names.
     """
 
     number: int

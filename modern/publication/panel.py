@@ -1,7 +1,7 @@
 """The state of a session as plain data for the emulator's page: the points with their hull, and core storage.
 
-All numbers come from the variables of the running program. The page only draws them; it computes nothing about the
-hull.
+All numbers come from the variables of the running program. The page only draws these numbers and computes nothing about
+the hull.
 """
 
 from array import array
@@ -57,9 +57,10 @@ def picture(session: Session, state: tuple[list[Any], list[Any]] | None = None) 
     """Return the points and faces in a program's variables, or an empty result for a program without such variables.
 
     The result has ``points``, the number of ``vertices``, which are the first points, and ``faces`` as lists of indices
-    of points. Points come from the variables X, Y and Z (in program 2, R, S and T), the number of vertices from NV, and
-    the faces from the arrays MM, NN and KK, whose first NE entries hold numbers of points. The variables have their
-    present values, or those of an earlier ``state``: the list of all stored values and the list of their kinds.
+    of points. Points come from the variables X, Y and Z (in program 2, R, S and T), and the number of vertices comes
+    from NV. The faces come from the arrays MM, NN and KK, whose first NE entries hold numbers of points. The variables
+    have their present values, or those of an earlier ``state``: the list of all stored values and the list of their
+    kinds.
     """
     storage = session.program.storage
 
@@ -87,7 +88,10 @@ def picture(session: Session, state: tuple[list[Any], list[Any]] | None = None) 
 
 
 def number(session: Session, field: int, state: tuple[list[Any], list[Any]] | None = None) -> float | None:
-    """Return the value of a field, at present or in an earlier ``state``, as a float; None if it is undefined."""
+    """Return the present value of a field, or its value in an earlier ``state``, as a float.
+
+    Return None if the value is undefined.
+    """
     values, kinds = state or (session.state.values, session.state.kinds)
     value, kind = values[field], kinds[field]
     if kind == UNDEFINED:
@@ -195,8 +199,8 @@ class Record:
 
     ``times`` has the work done before each statement. ``writers`` maps a field to the card that last wrote it and the
     number of the writing statement in the run. ``stages`` has the successive hulls as :func:`picture` returns them.
-    ``repeats`` is 0 until the run returns to an earlier state; then it is the number of statements since that state.
-    Such a run never ends without an action of the operator.
+    ``repeats`` is 0 until the run returns to an earlier state. Then ``repeats`` is the number of statements since that
+    state. Such a run never ends without an action of the operator.
     """
 
     program: Program | None = None
@@ -239,7 +243,10 @@ class Record:
             self.stages.append(picture(session) | {"final": self._is_final})
 
     def _recognise(self, line: Line, session: Session) -> None:
-        """Compare the state of the run with those kept at earlier visits to the statement; equal states mean a loop."""
+        """Compare the state of the run with those kept at earlier visits to the statement.
+
+        If two states are equal, the run repeats a loop without end.
+        """
         count, state, numbers = len(self.times), session.state, session.options.numbers
         if session.switches != self._switches:
             self._switches = list(session.switches)

@@ -1,8 +1,8 @@
 """Compare the result of the 1963 programs with the true hull, for points that a visitor of the site enters.
 
 The module returns plain data and needs no numpy, so that it runs in the browser. The function :func:`true_hull` tests
-every plane through three points, which is fast enough for 51 points. It shares no code with the programs, the port or
-the exact hull; the tests compare it with the exact hull.
+every plane through three points, which is fast enough for 51 points. The function shares no code with the programs, the
+port or the exact hull. The tests compare its results with the exact hull.
 """
 
 from collections.abc import Iterator, Sequence
@@ -35,7 +35,7 @@ def parted(text: str) -> dict[str, Any]:
     """Compare the hull that the 1963 programs find with the true hull. ``text`` has one point on each line.
 
     The answer has ``points`` as typed, the hull ``true`` and the hull ``found`` by the programs. Each hull has
-    ``vertices`` (indices from 0) and ``faces`` (loops of indices; a polygon or a line is one face). ``says`` has
+    ``vertices`` (indices from 0) and ``faces`` (loops of indices). A polygon or a line is one face. ``says`` has
     messages about the run. ``reason`` explains a run without a hull, and ``part`` names the first branch that exact
     arithmetic takes differently, both in the sentences of ``hull --explain``. For invalid input the answer has only
     ``refused``, a message.

@@ -1,6 +1,6 @@
 """Intermediate results of three papers as objects in space: hidden lines, cells of a ball, octants of a hull.
 
-The objects have no colour; ``site/pages/papers.py`` draws them. For the fourth paper, Appel and Will's, ``papers.py``
+The objects have no colour. ``site/pages/papers.py`` draws them. For the fourth paper, Appel and Will's, ``papers.py``
 draws the convex edges and loops that :mod:`modern.papers.appel_will` returns.
 """
 
@@ -77,8 +77,9 @@ def hidden_lines() -> tuple[Eye, tuple[Plate, ...]]:
     """Draw the scene ``house`` in four steps (Nakamae and Nishita, sections 3.1 to 3.5), and return the eye and the
     steps.
 
-    The first step has all lines. The other steps remove edges of which both faces are turned away from the eye,
-    parts that nearer faces hide, and ghost lines, which only divide a plane face of an object.
+    The first step has all lines. The second step removes edges of which both faces are turned away from the eye. The
+    third step removes the parts that nearer faces hide. The fourth step removes ghost lines, which only divide a plane
+    face of an object.
     """
     model = scene("house")
     x, y, z = (int(number) for number in model.sight.eye)

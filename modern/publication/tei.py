@@ -1,10 +1,10 @@
 """Write a text of the edition as TEI P5: its witness with all emendations, and a program's commentary.
 
 Every line of the witness is an ``ab`` element. By parallel segmentation, an ``app`` element in a line holds the
-readings of a passage. Other elements hold changes that no source has: ``choice`` a modern patch, ``space`` blanks that
-the edition adds, and ``surplus`` blanks that it removes. ``seg`` holds a displaced piece, and a ``transpose`` element
-in the header names the ``anchor`` before which the piece belongs. Each row of the apparatus has one ``app`` with its
-reasons; a row that has no reading of its own is documented by an ``app`` of ``standOff``.
+readings of a passage. Other elements hold changes that no source has: ``choice`` holds a modern patch, ``space`` holds
+blanks that the edition adds, and ``surplus`` holds blanks that the edition removes. ``seg`` holds a displaced piece,
+and a ``transpose`` element in the header names the ``anchor`` before which the piece belongs. Each row of the apparatus
+has one ``app`` with its reasons. If a row has no reading of its own, this ``app`` is in ``standOff``.
 
 The module ``tei_schema`` describes every element, ``tei_header`` writes the header, ``tei_register`` writes the
 verdicts on the statements, and ``tei_reading`` restores witness, corrected text and cards from a document.
@@ -207,7 +207,7 @@ def _notes(app: Element, row: Row) -> None:
 
 
 def _features(parent: Element, values: Mapping[str, object]) -> None:
-    """Write a mapping as a TEI feature structure; the value of the key ``kind`` is its type."""
+    """Write a mapping as a TEI feature structure. The value of the key ``kind`` is the type of the structure."""
     structure = SubElement(parent, "fs", {"type": str(values["kind"])} if "kind" in values else {})
     for key, value in values.items():
         if key != "kind":

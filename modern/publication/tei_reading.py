@@ -1,7 +1,7 @@
 """Restore the witness, the corrected text, the deck and the cards from a TEI document of this edition.
 
-The module is the inverse of :mod:`modern.publication.tei`. It shares no code with that module or with the apparatus, so
-that a successful round trip proves that the document is complete.
+The module is the inverse of :mod:`modern.publication.tei`. It shares no code with that module or with the apparatus.
+Therefore a successful round trip proves that the document is complete.
 """
 
 from collections.abc import Collection, Iterator, Mapping
@@ -97,7 +97,7 @@ class _State:
     """The text after some of its emendations.
 
     ``rows`` has the references (``#id``) of the ``app`` elements whose emendations are made. ``pieces`` has the ``seg``
-    elements of displaced text; the key of each is the reference of the place to which the text is moved.
+    elements of displaced text. The key of each element is the reference of the place to which the text is moved.
     """
 
     rows: frozenset[str]

@@ -37,8 +37,8 @@ class Jump:
 class Name:
     """A name in a program with the cards that declare, set and use it.
 
-    ``floating`` is True for a floating-point name and False for an integer.  ``shape`` has the dimensions of an array;
-    it is empty for other names.  ``function`` is True for a library function.  ``declared``, ``set`` and ``used`` are
+    ``floating`` is True for a floating-point name and False for an integer.  ``shape`` has the dimensions of an array,
+    and is empty for other names.  ``function`` is True for a library function.  ``declared``, ``set`` and ``used`` are
     numbers of cards.
     """
 

@@ -40,7 +40,8 @@ def locked() -> dict[str, str]:
 def collected() -> dict[str, str]:
     """Return the pins of all packages whose wheels the deposit should contain, as :func:`locked` does.
 
-    These are the run-time dependencies, the build tools of the wheel, the extra ``edition``, and their dependencies.
+    The packages are the run-time dependencies, the build tools of the wheel, the extra ``edition``, and their
+    dependencies.
     """
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     extra = project["project"]["optional-dependencies"]["edition"]

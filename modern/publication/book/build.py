@@ -175,7 +175,7 @@ def _picture(file: str, folder: Path) -> str:
 
 
 def pdf(markup: str, folder: Path) -> bytes:
-    """Typeset Typst markup as PDF/A; ``folder`` has its pictures.  Raise BuildError if Typst is missing or fails."""
+    """Typeset Typst markup as PDF/A.  ``folder`` has the pictures.  Raise BuildError if Typst is missing or fails."""
     try:
         import typst as compiler
     except ImportError:

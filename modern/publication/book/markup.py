@@ -80,10 +80,10 @@ def table(
 ) -> str:
     """Return a table as Typst markup.
 
-    For each column, ``widths`` has the length of the longest cell in characters, and ``longest`` that of the longest
-    word. ``right`` has the indices of the columns of numbers, which are aligned to the right. A table that is too wide
-    is split, and both halves have the columns that name the rows. Raise ValueError for a table that would need letters
-    smaller than ``_SMALL`` points.
+    For each column, ``widths`` has the length of the longest cell in characters, and ``longest`` has that of the
+    longest word. ``right`` has the indices of the columns of numbers, which are aligned to the right. A table that is
+    too wide is split, and both halves have the columns that name the rows. Raise ValueError for a table that would need
+    letters smaller than ``_SMALL`` points.
     """
     rows = list(rows)
     longest = [min(width, _WORD) for width in widths] if longest is None else longest

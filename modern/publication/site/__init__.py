@@ -16,8 +16,9 @@ To add a page of prose:
 To add a page made from data:
 
 1. Put the facts into frozen dataclasses in ``modern/publication/``, without HTML, so that the book can use them too.
-2. Write ``pages/NAME.py`` with a function ``make``.  The directive finds every file there; there is no list to extend.
-   Escape text with :mod:`~modern.publication.site.markup` and link with ``markup.link("program3", "147+2", TEXT)``.
+2. Write ``pages/NAME.py`` with a function ``make``.  The directive finds every file there, so no list needs a new
+   entry.  Escape text with :mod:`~modern.publication.site.markup` and link with ``markup.link("program3", "147+2",
+   TEXT)``.
 3. Write ``docs/PAGE.md`` with a title, a paragraph that says what the page is for, and the directive.  Add ``PAGE`` to
    a toctree.
 4. Add tests to ``tests/modern/publication/``.  The tests of links, HTML and accessibility cover the page already.

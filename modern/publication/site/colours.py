@@ -1,4 +1,4 @@
-"""The colours of the site by role, for the light and the dark theme; docs/_static/edition.css has the other styles.
+"""The colours of the site by role, for the light and the dark theme.  docs/_static/edition.css has the other styles.
 
 Text has a contrast of at least 4.5 to 1 with its background, which the tool axe checks in both themes.  Colour never
 carries a meaning alone: coloured text is also underlined, marked with a sign or labelled.

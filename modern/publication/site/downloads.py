@@ -68,7 +68,7 @@ def _read(names: Iterable[str]) -> Mapping[str, bytes]:
 
 
 def write(folder: Path) -> None:
-    """Write all downloads into a new folder; the same files always give the same bytes."""
+    """Write all downloads into a new folder.  The same files always give the same bytes."""
     folder.mkdir()
     for item in downloads():
         data = zipped(item.files) if item.packed else next(iter(item.files.values()))

@@ -80,7 +80,7 @@ _SECTION = re.compile(r"(?:Page |Section |Sheet |Error )?(\d\S*?|[EF]\d+)[.:]?(?
 
 
 def _jump_list(content: list[Part]) -> str:
-    """Return a bar of links to the sections of a long page, or "" for a short page; the bar does not scroll away."""
+    """Return a bar of links to the sections of a long page, or "" for a short page. The bar does not scroll away."""
     parts = [part for part in content if part.heading and part.level == 1]
     if len(parts) < _LONG:
         return ""
@@ -198,7 +198,10 @@ class AccessibleTranslator(HTML5Translator):
             self.body[-1] = self.body[-1].replace("<pre>", '<pre tabindex="0">', 1)
 
     def visit_image(self, node: nodes.Element) -> None:
-        """Link a picture to its file, which a phone can enlarge; the dark theme inverts it if it lacks dark colours."""
+        """Link a picture to its file, which a phone can enlarge.
+
+        The dark theme inverts a picture that has no dark colours of its own.
+        """
         file = Path(self.builder.srcdir) / node["uri"]
         if file.suffix == ".svg" and "prefers-color-scheme" not in file.read_text(encoding="utf-8"):
             node["classes"].append("drawing")

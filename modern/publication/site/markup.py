@@ -1,7 +1,7 @@
 """Functions that write HTML as strings: elements, addresses within the site, and SVG pictures inside pages.
 
-A parameter called ``inner`` is HTML; other texts are plain and are escaped.  The dark theme inverts the pictures of
-:mod:`modern.drawing`, which contain only shades of grey (docs/_static/edition.css).
+A parameter called ``inner`` is HTML.  All other texts are plain and are escaped.  The dark theme inverts the pictures
+of :mod:`modern.drawing`, which contain only shades of grey (docs/_static/edition.css).
 """
 
 import re
@@ -20,7 +20,7 @@ _NO_END = frozenset({"input", "br", "img", "hr", "col"})
 def element(name: str, inner: str = "", /, **attributes: str | bool) -> str:
     """Return an HTML element with attributes.
 
-    ``cls`` is the attribute ``class``; in other names, ``_`` stands for ``-``.  An attribute that is False or empty is
+    ``cls`` is the attribute ``class``.  In other names, ``_`` stands for ``-``.  An attribute that is False or empty is
     omitted, except ``alt`` and ``value``.
     """
     start = f"<{name}{''.join(_attribute(key, value) for key, value in attributes.items())}>"
@@ -40,7 +40,10 @@ def text(name: str, content: str, /, **attributes: str | bool) -> str:
 
 
 def preformatted(content: str, name: str) -> str:
-    """Return lines of plain text in an element that the keyboard can scroll; ``name`` labels it for screen readers."""
+    """Return lines of plain text in an element that the keyboard can scroll.
+
+    ``name`` is the label of the element for screen readers.
+    """
     return text("pre", content, tabindex="0", aria_label=name)
 
 

@@ -1,7 +1,7 @@
 """A listing as facing text, with details for every card, and the tables of its names and FORMAT statements.
 
 All cards, rows and addresses are plain HTML and need neither JavaScript nor CSS. The reader chooses with form controls
-which layers are highlighted and which example has its executions and times in the margin; CSS evaluates the controls.
+which layers are highlighted and which example has its executions and times in the margin. CSS evaluates the controls.
 """
 
 from collections.abc import Iterable

@@ -252,7 +252,7 @@ def _square(level: Level, side: int) -> str:
 
 
 def quadrants_svg(level: Level, side: int) -> str:
-    """Draw the quadrants of a level of the quadtree of heights as squares; a greater height has a lighter grey."""
+    """Draw the quadrants of a level of the quadtree of heights as squares. A greater height has a lighter grey."""
     room = WIDTH - 2 * _MARGIN
     unit = 100 * room // side
 

@@ -1,6 +1,7 @@
 """The figures of the home page's essay: a punched card, the growing hull, a plane that fails to vanish, and the cube.
 
-Every figure is complete without JavaScript; ``story.js`` shows the stages one at a time and moves the slider.
+Every figure is complete without JavaScript. The script ``story.js`` shows the stages one at a time and moves the
+slider.
 """
 
 import json
