@@ -1,28 +1,18 @@
-"""Checks of Appel and Will: properties of convex polyhedra, their two-dimensional methods, and steps as printed."""
+"""Checks of Appel and Will: the whole method, steps as printed, polygons, and the star test for images of points."""
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from functools import partial
-from itertools import combinations, product
+from itertools import combinations, permutations, product
 from random import Random
 
 from modern.claims.evidence import Check, Generator, claim, exhausted, exhibited, refuted, search, searched, slip
 from modern.claims.hulls import exact_hull
-from modern.claims.sampled_sets import (
-    CASES,
-    SETS,
-    Point,
-    counterexample_points,
-    is_closed_curve,
-    plane_value,
-    sampled_sets,
-)
-from modern.exact_hull import ExactHull
+from modern.claims.sampled_sets import CASES, SETS, Point, counterexample_points, is_closed_curve, sampled_sets
 from modern.geometry.mesh import sides
-from modern.geometry.vectors import cross, dot, minus
 from modern.papers.appel_will import CORRECTED, Method, appel_will, printed
-from modern.papers.appel_will.star import as_corrected, as_printed, project, vorticity
+from modern.papers.appel_will.star import as_corrected, as_printed, on_one_ray, project, star_polygon, vorticity
 
 Flat = tuple[int, int]
 CUBE = tuple(product((0, 1), repeat=3))
@@ -77,9 +67,9 @@ def method_against_judge(cases: int = CASES, method: Method = CORRECTED) -> Chec
             ends = [hull.edges[abs(entry) - 1][:: 1 if entry > 0 else -1] for entry in loop.entries]
             checks.append(all(ends[k - 1][1] == point == ends[k][0] for k, point in enumerate(ring)))
     message = (
-        f"in {cases} sets, the loops are the convex faces of the exact hull and use each edge twice; the map lists "
+        f"in {cases} sets, the loops are the convex faces of the exact hull and use each edge twice; the map lists"
     )
-    message += "the common points of neighbouring lines: LC1 for a positive entry of the loop, LC2 for a negative one"
+    message += " the common points of neighbouring lines: LC1 for a positive entry of the loop, LC2 for a negative one"
     return searched(SETS[3], cases, checks, message)
 
 
@@ -146,7 +136,7 @@ def _passes(ring: Sequence[Flat]) -> list[list[Flat]]:
 
 
 def _crosses(ring: Sequence[Flat]) -> bool:
-    """Return True if two sides that are not neighbours meet; the corners of the polygon must be distinct."""
+    """Return True if two sides of a polygon that are not neighbours meet. The corners must be distinct."""
     apart = ((p, q, r, s) for (p, q), (r, s) in combinations(sides(ring), 2) if q != r and s != p)
     return any(area(p, q, r) * area(p, q, s) <= 0 and area(r, s, p) * area(r, s, q) <= 0 for p, q, r, s in apart)
 
@@ -176,50 +166,6 @@ def start_of_jarvis(cases: int = CASES) -> Check:
 def _smallest_angle(origin: Flat, points: Sequence[Point]) -> int:
     angles = [math.atan2(y - origin[1], x - origin[0]) % (2 * math.pi) for x, y, _ in points]
     return angles.index(min(angles))
-
-
-@claim("appel-will.28", number="2", full=400)
-@claim("appel-will.29", "appel-will.66", number="3", full=400)
-@claim("appel-will.30", "nakamae-nishita.63", number="4", full=400)
-def polyhedron_property(number: str, cases: int = 2 * CASES) -> Check:
-    checks = [right for s in sampled_sets(3, cases) for right in _PROPERTIES[number](s.points, s.judge)]
-    return searched(SETS[3], cases, checks, f"in {cases} hulls, {_MEANINGS[number]}")
-
-
-def _cones(points: Sequence[Point], judge: ExactHull) -> Iterator[bool]:
-    """Yield two truth values for each vertex of a hull.
-
-    The first is True if no point is outside the planes of its faces, and the second if these planes meet only in the
-    vertex.
-    """
-    for k in judge.vertices:
-        planes = [f.plane for f in judge.facets if k in f.polygon]
-        yield all(plane_value(p, q) <= 0 for p in planes for q in points)
-        yield any(dot(a[:3], cross(b[:3], c[:3])) for a, b, c in combinations(planes, 3))
-
-
-def _dihedral(points: Sequence[Point], judge: ExactHull) -> Iterator[bool]:
-    for edge in judge.edges():
-        both = [f for f in judge.facets if {*edge} <= {*f.polygon}]
-        far = [plane_value(both[0].plane, points[k]) < 0 for k in both[-1].polygon if k not in edge]
-        yield len(both) == 2 and all(far)
-
-
-def _faces(points: Sequence[Point], judge: ExactHull) -> Iterator[bool]:
-    for facet in judge.facets:
-        ring = [points[k] for k in facet.polygon]
-        for p, q in sides(ring):
-            # All other corners are to the left of each side.
-            normals = [cross(minus(q, p), minus(r, p)) for r in ring if r not in (p, q)]
-            yield min(dot(normal, facet.plane[:3]) for normal in normals) > 0
-
-
-_PROPERTIES = {"2": _cones, "3": _dihedral, "4": _faces}
-_MEANINGS = {
-    "2": "the planes at each vertex meet only there, and all points are on the inner side of these planes",
-    "3": "each edge is on exactly two faces, which meet at less than 180 degrees",
-    "4": "all other corners of a face are on the same side of each of its sides",
-}
 
 
 @claim("appel-will.37")
@@ -277,6 +223,81 @@ def star_as_captioned() -> Check:
     return refuted(wrong, f"the test finds an edge that the hull does not have: {pairs}")
 
 
+# Two collinear sides make one side of the hull, which is no new line.
+NONCONVEX: Generator[tuple[Flat, ...]] = replace(
+    RINGS,
+    name=f"{RINGS.name}, not convex and without angles of 180 degrees",
+    accepts=lambda ring: RINGS.accepts(ring) and min(turns(ring)) < 0 and 0 not in turns(ring),
+)
+
+
+@claim("appel-will.128", full=5_000)
+def new_lines(cases: int = 10) -> Check:
+    def is_changed(ring: Sequence[Flat]) -> bool:
+        polygon = exact_hull([(x, y, 0) for x, y in ring]).polygon
+        lines, edges = ({*map(frozenset, sides(corners))} for corners in (range(len(ring)), polygon))
+        return len(polygon) < len(ring) and not edges <= lines
+
+    square = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    check = search(NONCONVEX, is_changed, cases, "the hull of each polygon has fewer points and a new line")
+    return check.unless(not is_changed(square), "a square, which is its own hull")
+
+
+IMAGES: Generator[tuple[Flat, ...]] = Generator(
+    "3 to 5 images with coordinates from -4 to 4, none at the origin",
+    12,
+    partial(draw_points, count=(3, 5), coordinates=(-4, 4)),
+    lambda images: len({*images}) == len(images) > 2 and (0, 0) not in images,
+)
+
+
+@claim("appel-will.131", full=5_000)
+def star_test(cases: int = 20) -> Check:
+    def is_right(images: tuple[Flat, ...]) -> bool:
+        # The test as printed must give the same result as the corrected one if no two images are on one ray.
+        is_outside = as_corrected(images)
+        on_ray = any(on_one_ray(a, b) for a, b in combinations(images, 2))
+        return is_outside != holds_origin(images) and (on_ray or as_printed(images) == is_outside)
+
+    return search(IMAGES, is_right, cases, "the senses of rotation tell whether the point is in the hull of each set")
+
+
+@claim("appel-will.55", "appel-will.58", full=5_000)
+def change_of_sense(cases: int = 20) -> Check:
+    def is_right(images: tuple[Flat, ...]) -> bool:
+        star = [*sides(star_polygon(images))]
+        senses = [vorticity(a, b) for a, b in star]
+        # The point is outside if it is on no side, and a ray from it crosses an even number of sides.
+        crossings = [(a[1] > 0) != (b[1] > 0) and vorticity(a, b) * (b[1] - a[1]) > 0 for a, b in star]
+        on_side = any(not vorticity(a, b) and not on_one_ray(a, b) for a, b in star)
+        is_outside = not on_side and sum(crossings) % 2 == 0
+        return not holds_origin(images) if is_outside else min(senses) >= 0 or max(senses) <= 0
+
+    message = "a change of sense occurs only at points outside the star polygon, and these are outside its hull"
+    return search(IMAGES, is_right, cases, message)
+
+
+@claim("appel-will.119", full=1_000)
+def order_on_one_ray(cases: int = 10) -> Check:
+    def is_listed_order(images: tuple[Flat, ...]) -> bool:
+        near, far = images[0], (2 * images[0][0], 2 * images[0][1])
+        rest = [image for image in images if image not in (near, far)]
+        orders = [[near, far], [far, near]]
+        return all([p for p in star_polygon([*order, *rest]) if p not in rest] == order for order in orders)
+
+    return search(IMAGES, is_listed_order, cases, "an image and one twice as far can be in either order by angle")
+
+
+@claim("appel-will.60", full=1_000)
+def opposite_images(cases: int = 10) -> Check:
+    def is_inside(images: tuple[Flat, ...]) -> bool:
+        opposite = (*images[:3], (-images[0][0], -images[0][1]))
+        return holds_origin(opposite) and not any(as_corrected([*order]) for order in permutations(opposite))
+
+    message = "C is in the hull of three images and one opposite to the first, and the test finds this in any order"
+    return search(IMAGES, is_inside, cases, message)
+
+
 @claim("appel-will.103", step="step5")
 @claim("appel-will.105", step="step7")
 @claim("appel-will.108", step="step10")
@@ -288,6 +309,25 @@ def step_as_printed(step: str) -> Check:
     pairs = enumerate(zip(entries, corrected_entries, strict=False), 1)
     begins = (f"loop {n} begins with line {abs(a[0])}, but {abs(b[0])} is printed" for n, (a, b) in pairs if a != b)
     return slip(not wrong, corrected.table.closed, reading, hull.fault or next(begins, "the same loops"))
+
+
+@claim("appel-will.148")
+def limit_of_searches() -> Check:
+    points = counterexample_points("pentagon.csv")
+    hull = appel_will(points, method=printed("step9", "step3"))
+    ring = exact_hull(points).polygon
+    endless = sum(_comes_again(hull.edges, ring[k - 2], ring[k - 1], ring[k]) for k in range(len(ring)))
+    message = f"{endless} of {len(ring)} searches in a pentagon never end; with a limit: {hull.fault}"
+    return exhibited(endless > 0 and hull.fault.endswith("does not return to its start"), message)
+
+
+def _comes_again(edges: Sequence[tuple[int, int]], start: int, common: int, match: int) -> bool:
+    visited: set[int] = set()
+    while match != start and match not in visited:
+        visited.add(match)
+        line = next(edge for edge in edges if match in edge and common not in edge)
+        match = sum(line) - match
+    return match != start
 
 
 @claim("appel-will.96", "appel-will.124", "kovalevsky-schulz.43", "kovalevsky-schulz.158", full=400)

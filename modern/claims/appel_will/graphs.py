@@ -1,4 +1,4 @@
-"""Checks of Appel and Will about the graph of a hull's edges: its outline, its faces, and loops in one plane."""
+"""Checks of Appel and Will about the edges and faces of a hull: its graph, its outline, loops, and properties."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations
@@ -6,8 +6,9 @@ from itertools import combinations
 from modern.claims.appel_will.convexity import CUBE
 from modern.claims.evidence import Check, claim, searched
 from modern.claims.hulls import exact_hull
-from modern.claims.sampled_sets import CASES, SETS, Point, is_closed_curve, sampled_sets
+from modern.claims.sampled_sets import CASES, SETS, Point, is_closed_curve, plane_value, sampled_sets
 from modern.exact_hull import ExactHull
+from modern.geometry.mesh import sides
 from modern.geometry.vectors import cross, dot, minus
 from modern.papers.appel_will.results import found_solid
 
@@ -69,10 +70,8 @@ def coplanar_loops(cases: int = CASES) -> Check:
         threes = [{*a, *b} for a, b in combinations(judge.edges(), 2) if len({*a, *b}) == 3]
         checks += [sum(three <= {*facet.polygon} for facet in judge.facets) <= 1 for three in threes]
         checks.append(len({facet.plane for facet in judge.facets}) == len(judge.facets))
-    message = (
-        f"in {cases} drawn sets and three fixed ones, no two edges with a common end have two common loops, and no "
-    )
-    message += "two loops are coplanar"
+    message = f"in {cases} drawn sets and three fixed ones, no two edges with a common end have two common loops, and"
+    message += " no two loops are coplanar"
     return searched(SETS[3], cases, checks, message)
 
 
@@ -98,3 +97,43 @@ def _on_outline(points: Sequence[Point], judge: ExactHull, eye: Point) -> list[t
         if any(normal) and not min(values) < 0 < max(values):
             edges.append((a, b))
     return edges
+
+
+@claim("appel-will.28", number="2", full=400)
+@claim("appel-will.29", "appel-will.66", number="3", full=400)
+@claim("appel-will.30", "nakamae-nishita.63", number="4", full=400)
+def polyhedron_property(number: str, cases: int = 2 * CASES) -> Check:
+    outcomes_of, meaning = _PROPERTIES[number]
+    checks = [right for s in sampled_sets(3, cases) for right in outcomes_of(s.points, s.judge)]
+    return searched(SETS[3], cases, checks, f"in {cases} hulls, {meaning}")
+
+
+def _cones(points: Sequence[Point], judge: ExactHull) -> Iterator[bool]:
+    # No point is outside the planes of the faces at a vertex, and these planes meet only in the vertex.
+    for k in judge.vertices:
+        planes = [f.plane for f in judge.facets if k in f.polygon]
+        yield all(plane_value(p, q) <= 0 for p in planes for q in points)
+        yield any(dot(a[:3], cross(b[:3], c[:3])) for a, b, c in combinations(planes, 3))
+
+
+def _dihedral(points: Sequence[Point], judge: ExactHull) -> Iterator[bool]:
+    for edge in judge.edges():
+        both = [f for f in judge.facets if {*edge} <= {*f.polygon}]
+        far = [plane_value(both[0].plane, points[k]) < 0 for k in both[-1].polygon if k not in edge]
+        yield len(both) == 2 and all(far)
+
+
+def _faces(points: Sequence[Point], judge: ExactHull) -> Iterator[bool]:
+    for facet in judge.facets:
+        ring = [points[k] for k in facet.polygon]
+        for p, q in sides(ring):
+            # All other corners are to the left of each side.
+            normals = [cross(minus(q, p), minus(r, p)) for r in ring if r not in (p, q)]
+            yield min(dot(normal, facet.plane[:3]) for normal in normals) > 0
+
+
+_PROPERTIES = {
+    "2": (_cones, "the planes at each vertex meet only there, and all points are on the inner side of these planes"),
+    "3": (_dihedral, "each edge is on exactly two faces, which meet at less than 180 degrees"),
+    "4": (_faces, "all other corners of a face are on the same side of each of its sides"),
+}

@@ -9,7 +9,7 @@ from modern.claims.appel_will.convexity import CUBE, RINGS, Flat
 from modern.claims.appel_will.proofs import least_surface
 from modern.claims.evidence import Check, claim, exhibited, refuted, search, slip
 from modern.claims.hulls import exact_hull
-from modern.claims.invariants import corrected_print, is_sphere, numbers_in
+from modern.claims.invariants import corrected_print, is_closed_loop, is_sphere, numbers_in
 from modern.claims.kovalevsky_schulz.proofs import no_combination
 from modern.claims.published import PAPERS, findings, results_of
 from modern.claims.sampled_sets import Plane, Point, counterexample, counterexample_points, plane_value
@@ -17,7 +17,7 @@ from modern.formats.off import parse_off
 from modern.geometry.mesh import sides
 from modern.geometry.vectors import area_vector, cross, dot, lowest, minus
 from modern.papers.appel_will import Method, appel_will
-from modern.papers.appel_will.corners import Rule, preprocess
+from modern.papers.appel_will.corners import Rule, preprocess, triple_product
 from modern.papers.appel_will.results import Solid, printed_solid
 from modern.papers.appel_will.star import as_corrected
 
@@ -36,13 +36,8 @@ def solid_in(name: str) -> Solid:
     return Solid(tuple((int(x), int(y), int(z)) for x, y, z in mesh.points), mesh.faces)
 
 
-def crown() -> Solid:
-    """Return a pyramid whose base is a star with four points."""
-    return solid_in("crown.off")
-
-
 def prism(ring: tuple[Flat, ...]) -> Solid:
-    """Return a prism on a simple polygon; at most three of its planes meet at each point."""
+    """Return a prism on a simple polygon. At most three planes of the prism meet at each point."""
     n = len(ring)
     upright = [(a, b, b + n, a + n) for a, b in sides(range(n))]
     points = tuple((x, y, z) for z in (0, 1) for x, y in ring)
@@ -105,7 +100,7 @@ def surface_three() -> Check:
 
 @claim("appel-will.155")
 def inside_corner_at_vertex() -> Check:
-    lost = ", ".join(str(k + 1) for k in deleted_vertices(crown(), "any"))
+    lost = ", ".join(str(k + 1) for k in deleted_vertices(solid_in("crown.off"), "any"))
     return exhibited(lost, f"point {lost} of the crown is deleted although it is a vertex of the hull")
 
 
@@ -127,7 +122,7 @@ def _surfaces_at_lines(solid: Solid) -> Counter[frozenset[int]]:
 
 
 def solid_of_cubes(cubes: Collection[tuple[int, ...]]) -> Solid:
-    """Return the solid that unit cubes fill; its surfaces are the sides that belong to one cube only."""
+    """Return the solid that unit cubes fill. Its surfaces are the sides of the cubes that belong to one cube only."""
     squares: Counter[frozenset[tuple[int, ...]]] = Counter()
     for cube, axis, side in product(cubes, range(3), (0, 1)):
         corners_ = (tuple(c + d for c, d in zip(cube, way, strict=True)) for way in CUBE if way[axis] == side)
@@ -138,14 +133,11 @@ def solid_of_cubes(cubes: Collection[tuple[int, ...]]) -> Solid:
     return Solid(tuple(points), tuple(tuple(points.index(s[k]) for k in (0, 1, 3, 2)) for s in outer))  # type: ignore[arg-type]
 
 
-# The number of cubes in each of the three arms of a star.
-ARM = 9
-
-
 @claim("appel-will.33")
 def surface_of_star() -> Check:
     axes = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
-    star = solid_of_cubes({tuple(k * c for c in axis) for axis in axes for k in range(ARM + 1)})
+    # Each of the three arms of the star has nine cubes.
+    star = solid_of_cubes({tuple(k * c for c in axis) for axis in axes for k in range(10)})
     normals = [area_vector(star.points, facet.polygon) for facet in exact_hull(star.points).facets]
     # All surfaces of the star are squares with the area 1.
     surface, around = len(star.surfaces), sum(math.hypot(*normal) for normal in normals) / 2
@@ -185,8 +177,8 @@ def minimum_data() -> Check:
 
 @claim("appel-will.77")
 def points_on_three_surfaces() -> Check:
-    # The third object consists of three cubes in the shape of an L.
-    objects = fig_4(), crown(), prism(((0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2))), pitted()
+    # The crown is a pyramid on a star with four points. The third object consists of three cubes in the shape of an L.
+    objects = fig_4(), solid_in("crown.off"), prism(((0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2))), pitted()
     counts = [sum(k in surface for surface in s.surfaces) for s in objects for k in range(len(s.points))]
     return exhibited(min(counts) >= 3, f"each of {len(counts)} points of four objects is on three or more surfaces")
 
@@ -237,3 +229,24 @@ def figure_of_minimum_data() -> Check:
     words, printed, corrected = (" ".join(lines).split() for lines in texts)
     message = "Fig. 3 shows no polyhedron; Fig. 4 has a list and a map"
     return slip(words == printed, words == corrected, "Fig. 4", message)
+
+
+@claim("appel-will.111")
+def fourth_loop() -> Check:
+    lines = {label: (start, end) for label, start, end in map(numbers_in, corrected_print("appel-will")["fig14"])}
+    (result,) = (result for result in results_of(PAPERS[0]) if result.id == "fig22-loops-4-5")
+    as_printed, corrected = (numbers_in(text.split("\t")[1]) for text in (result.printed[0], result.corrected[0]))
+    reading = " ".join(map(str, corrected))
+    message = f"the loop {' '.join(map(str, as_printed))} of the lines of Fig. 14 is not closed, but {reading} is"
+    return slip(is_closed_loop(as_printed, lines), is_closed_loop(corrected, lines), reading, message)
+
+
+@claim("appel-will.159")
+def product_with_repeated_vector() -> Check:
+    # The columns of each printed determinant are the vectors I, K and L. Its value follows.
+    rows = [numbers_in(line.partition("=")[2]) for line in corrected_print("appel-will")["fig18"][::2]]
+    with_i = [triple_product((a, b, c), (d, e, f), (a, b, c)) for a, d, _, b, e, _, c, f, _, _ in rows]
+    with_l = [triple_product((a, b, c), (d, e, f), (g, h, i)) for a, d, g, b, e, h, c, f, i, _ in rows]
+    shown_i, shown_l = (", ".join(map(str, values)) for values in (with_i, with_l))
+    message = f"the determinants are {shown_l} with l, and {shown_i} with i as displayed"
+    return slip(any(with_i), with_l == [row[-1] for row in rows], "l", message)
