@@ -1,13 +1,14 @@
 """Exact polynomials and certificates of their signs, with which the proofs of theorems are checked.
 
 A :class:`Step` of a proof states: if some polynomials (the hypotheses) have given signs, then another polynomial (the
-conclusion) has a given sign.  Its certificate is an identity::
+conclusion) has a given sign.  The certificate of the step is an identity::
 
     multiplier * conclusion = sum of terms
 
-The multiplier is a product of positive hypotheses.  Each term is a product of hypotheses with a positive number, with a
-square, or, if one of the hypotheses is an equation, with any polynomial.  Expanding both sides therefore proves the
-step for all real numbers.  The sentences that connect the steps are not checked by computation.
+The multiplier is a product of positive hypotheses.  Each term is a product of hypotheses and one more factor: a
+positive number or a square.  If one of the hypotheses is an equation, this factor may be any polynomial.  Expanding
+both sides therefore proves the step for all real numbers.  The sentences that connect the steps are not checked by
+computation.
 """
 
 from __future__ import annotations

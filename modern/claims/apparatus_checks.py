@@ -2,9 +2,9 @@
 
 An emendation (a correction of a transcribed text) is checked twice: its kind must permit the change
 (:mod:`modern.edition.readings`), and the ground that it gives must fail if the emendation is undone. This module checks
-the grounds of chapter 4 and of the papers: ``sibling``, another line has the same words; ``arithmetic``, the four
-conditions of theorem 4.2 must be printed in full; ``result``, a published result is reproduced only with the
-emendation.
+the three kinds of ground of chapter 4 and of the papers. ``sibling`` says that another line has the same words.
+``arithmetic`` says that the four conditions of theorem 4.2 must be printed in full. ``result`` says that a
+published result is reproduced only with the emendation.
 """
 
 import re
@@ -55,7 +55,7 @@ def check_listing(row: Row, pair_uses: Mapping[tuple[str, str], int]) -> Proof:
 def check_transcripts(pair_uses: Mapping[tuple[str, str], int]) -> Iterator[Proof]:
     """Yield one proof each for chapter 6, chapter 4 and every paper; a failing proof reports the first fault.
 
-    The results of the papers need numpy; without it, the papers are left out.
+    The results of the papers need numpy. If numpy is not installed, the papers are left out.
     """
     chapter = load_chapter()
     faults = [*_kinds(chapter.text, pair_uses), *check_chapter(chapter)]
@@ -169,8 +169,9 @@ def check_everything(
     """Run all checks and return the proofs in the order in which they are printed.
 
     ``rows`` are the rows of the listings. With ``transcripts``, the transcripts of the documents are checked too.
-    ``whole`` is the name and the content of a file with the whole text of a document; the excerpts in the transcript of
-    that document are then compared with it. Raise ApparatusError if the file is not the text of a document.
+    ``whole``, if given, is the name and the content of a file with the whole text of a document. The excerpts in the
+    transcript of that document are then compared with this text. Raise ApparatusError if the file is not the text of a
+    document.
     """
     pair_uses = count_pair_uses(texts())
     if workers == 1 or len(rows) < _MANY:

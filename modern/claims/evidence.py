@@ -1,9 +1,9 @@
 """Evidence for statements: the result of a check, and a grade that says how strong the evidence is.
 
 A check is a function that computes whether a statement holds and returns a :class:`Check`.  Only the constructors of
-this module make a ``Check``, and each sets the grade from its arguments: :func:`proved` counts the steps of an
-argument, :func:`exhausted` the members of a whole domain, :func:`searched` the cases of a generator.  The decorator
-:func:`claim` names the statements that a check decides.
+this module make a ``Check``.  Each constructor sets the grade and counts the evidence: :func:`proved` counts the steps
+of an argument, :func:`exhausted` counts the members of a whole domain, and :func:`searched` counts the cases of a
+generator.  The decorator :func:`claim` names the statements that a check decides.
 """
 
 import inspect
@@ -27,9 +27,9 @@ _ATTRIBUTE: Final = "decides"
 class Evidence:
     """How the result of a check was obtained.
 
-    ``domain`` is the argument of a proof, the set whose members were all tested, or the name of a generator; ``seed``
-    is the seed of that generator.  ``violation`` is a case that violates the condition of the statement and refutes the
-    statement. ``correction`` is the reading that makes a misprinted statement true.
+    ``domain`` is the argument of a proof, the set whose members were all tested, or the name of a generator.  ``seed``
+    is the seed of the generator, if there is one.  ``violation`` is a case that violates the condition of the statement
+    and refutes the statement. ``correction`` is the reading that makes a misprinted statement true.
     """
 
     grade: Grade
@@ -144,7 +144,7 @@ def refuted(by: object, message: str) -> Check:
 
 
 def slip(as_printed: object, as_corrected: object, correction: str, message: str) -> Check:
-    """Return the check of a misprint; it is confirmed if the printed reading is false and the corrected one true."""
+    """Return the check of a misprint, which must be false as printed and true as corrected."""
     evidence = Evidence("exhibited", 2, correction=correction if as_corrected else "")
     return Check(bool(as_printed), message, evidence)
 
@@ -195,8 +195,9 @@ def claim(*statements: str, full: int = 0, **subject: Any) -> Callable[[F], F]:
     """Name the statements that a check decides.
 
     statements: ids of rows of the register.
-    full: the number of cases of the full search; the check must then have a parameter ``cases``.
-    subject: arguments that select what is checked, for example which table, and never what the verdict is.
+    full: the number of cases of the full search.  A check with a full search must have a parameter ``cases``.
+    subject: arguments that select the subject of the check, for example one of several tables.  They must not say what
+    the verdict is.
     """
 
     def decorate(function: F) -> F:

@@ -100,7 +100,8 @@ def half_balls() -> Iterator[HalfBall]:
 def table_5() -> Check:
     """Check the storage sizes in Kovalevsky and Schulz's Table 5, which are counts of stored integers.
 
-    A list of triangles needs 4.5 integers for each triangle; a cell list needs 3 V + 5 F for V vertices and F faces.
+    A list of triangles needs 4.5 integers for each triangle. A cell list with V vertices and F faces needs 3 V + 5 F
+    integers.
     """
     outcomes: list[Outcome] = []
     for row in half_balls():

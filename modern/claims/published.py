@@ -60,9 +60,9 @@ PAPERS: tuple[Paper, ...] = (
 class PublishedResult:
     """A published result.
 
-    ``printed`` holds its lines as in the witness, ``corrected`` the lines after the emendations ``rows``, and ``span``
-    the ids of its first and last line. ``differs`` explains why the computed result differs from the printed one, and
-    ``cannot`` why nothing can be computed.
+    ``printed`` holds its lines as in the witness, ``corrected`` holds the lines after the emendations ``rows``, and
+    ``span`` holds the ids of its first and last line. ``differs`` explains why the computed result differs from the
+    printed one, and ``cannot`` explains why nothing can be computed.
     """
 
     id: str

@@ -2,8 +2,8 @@
 
 ``transcripts/statements`` holds one file for each document and one row for each statement.  A row records a verdict.
 :func:`judge` computes it again, with a grade, from the checks of this package that name the row and from the published
-results that the row names.  A definition that our code follows is *used*; a statement that cannot be tested is *quoted*
-with the reason.
+results that the row names.  The grade of a definition that our code follows is *used*.  The grade of a statement that
+cannot be tested is *quoted*, and its row gives the reason.
 """
 
 import re
@@ -89,7 +89,7 @@ class Statement:
     ``page`` may be a section.  ``words`` quotes at most eight words of the OCR text; ``says`` paraphrases the
     statement.  ``why`` is the condition, the reason why the statement fails, or the reason why it is not tested.
     ``results`` are ids of published results.  ``code`` names the code that follows a definition.  ``file`` is the
-    smallest known counterexample, and ``run`` the command that shows it.  ``part`` is the theorem to which a worked
+    smallest known counterexample, and ``run`` is the command that shows it.  ``part`` is the theorem to which a worked
     example of chapter 4 belongs.  ``same`` is the id of the row that this row repeats and whose verdict it shares.
     """
 

@@ -67,7 +67,7 @@ def _printed(args: argparse.Namespace) -> Printed:
 
 
 def _compared(literal: NDArray[np.bool_], corrected: NDArray[np.bool_]) -> int:
-    """Print how the hull by the rules as printed differs from that by the corrected rules; return the exit code."""
+    """Print the differences between the hulls by the printed and by the corrected rules. Return the exit code."""
     missing, extra = int(np.count_nonzero(corrected & ~literal)), int(np.count_nonzero(literal & ~corrected))
     print(f"compared with the corrected algorithm: {counted(missing, 'voxel')} missing, {extra} extra")
     return DIFFERS if missing or extra else OK

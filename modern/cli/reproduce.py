@@ -114,7 +114,7 @@ def _all_results() -> list[str]:
 
 
 def _results_named(text: str) -> list[str]:
-    """Return the printed results that an argument names; the list is empty if it names only statements.
+    """Return the printed results that an argument names, or an empty list if the argument names only statements.
 
     Raise UsageError for an unknown name.
     """
@@ -131,7 +131,7 @@ def _results_named(text: str) -> list[str]:
 
 
 def _statements(names: Sequence[str]) -> list[Statement]:
-    """Return the statements of the named documents and the statements named by id; without names, all statements."""
+    """Return the statements of the named documents and those named by id, or all statements if there are no names."""
     documents = {name.partition(".")[0] for name in names} if names else set(DOCUMENTS)
     rows = [row for name in DOCUMENTS if name in documents for row in statements_of(name)]
     return [row for row in rows if row.document in names or row.id in names] if names else rows
@@ -301,7 +301,7 @@ def _finding_lines(
 ) -> Iterator[str]:
     """Yield the verdicts on a paper's results.
 
-    show: show each printed result next to the computed one; otherwise show only lines that differ.
+    show: True to show each printed result next to the computed one, False to show only the lines that differ.
     """
     yield paper.title
     for finding in paper_findings:

@@ -76,7 +76,7 @@ Write = Callable[[str], None]
 
 
 def _tabulate_labels(args: argparse.Namespace) -> None:
-    """Print a table of labels, and write a file for each label; if a label fails, nothing is written."""
+    """Print a table of labels, and write a file for each label. If the hull of a label fails, write no file at all."""
     from emulator.progress import Progress  # imported here because only --each-label needs it
 
     labels = volumes.choice_of(args).labels

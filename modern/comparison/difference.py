@@ -24,7 +24,7 @@ NEAR = Fraction(1, 1000)
 class Disagreement:
     """The differences between a computed hull and the exact hull of the same points.  Points are input indices.
 
-    ``missed`` has the points that are vertices of the exact hull but not of the computed hull, and ``added`` the
+    ``missed`` has the vertices of the exact hull that are not vertices of the computed hull, and ``added`` has the
     vertices of the computed hull that are not vertices of the exact hull.  ``misfiled`` has the points that the
     computed hull puts into the wrong class: boundary points among the inside points, or inside points among the
     boundary points.  ``error`` is the largest error of a coefficient among the matched equations.  The errors of A, B
@@ -170,10 +170,10 @@ class UnrelatedCards(EmulatorError):
 class CardDifferences:
     """The differences between a hull on punched cards and the exact hull: missing and false vertices and faces.
 
-    ``missed`` has the vertices of the exact hull that are not vertices on the cards, ``added`` the vertices on the
-    cards that are not vertices of the exact hull, and ``not_found`` the faces of the exact hull that the cards lack.
-    ``polygons`` has for each false face on the cards the vertices that the cards name for it.  A false face with fewer
-    than two vertices cannot be drawn; ``others`` is the number of such faces.
+    ``missed`` has the vertices of the exact hull that are not vertices on the cards.  ``added`` has the vertices on the
+    cards that are not vertices of the exact hull.  ``not_found`` has the faces of the exact hull that the cards lack.
+    ``polygons`` has for each false face on the cards the vertices that the cards name for it.  ``others`` is the number
+    of false faces with fewer than two vertices, which cannot be drawn.
     """
 
     missed: tuple[int, ...] = ()

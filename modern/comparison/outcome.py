@@ -1,9 +1,9 @@
 """A common form for hulls of any origin (Butler's programs, modern procedures, exact hull), for comparing them.
 
-Points are indices into the input.  Equations apply to the coordinates of the input.  They describe the supporting
-planes of a polyhedron, or the supporting lines of a polygon projected as in the thesis (p. 16-17).  The projection
-drops the first coordinate whose coefficient in the polygon's plane is not zero; in the equations of the lines, this
-coordinate has the coefficient 0.
+Points are indices into the input.  Equations apply to the coordinates of the input.  The equations describe the
+supporting planes of a polyhedron, or the supporting lines of a polygon projected as in the thesis (p. 16-17).  The
+projection drops the first coordinate whose coefficient in the polygon's plane is not zero.  In the equations of the
+lines, this coordinate has the coefficient 0.
 """
 
 from collections.abc import Iterator, Sequence

@@ -1,7 +1,7 @@
 """Estimate significant digits of a program's values, and the stability of its decisions, from random runs.
 
 :func:`in_step` executes N stochastic runs on one common branch (:mod:`emulator.numbers.sampled`).  It records the
-estimated digits of every stored value, and at every IF the number of runs that would have taken each branch.
+estimated digits of every stored value.  At every IF, it records the number of runs that would have taken each branch.
 :func:`independent` executes the runs one after the other (Monte Carlo), each with its own branches.
 """
 
@@ -34,9 +34,9 @@ class StatementDigits:
     """The estimated numbers of significant digits of the values that one statement stored in the random runs.
 
     ``worst`` and ``median`` are the fewest digits and the median by Stott Parker's estimate, which counts the digits
-    common to the runs.  ``sure`` is the fewest digits by Sohier's, which counts the digits of a run that are right with
-    probability 95 %.  ``times`` is the number of values, ``inexact`` the number of values that differ between the
-    runs, and ``zeros`` the number of computational zeros among these.
+    common to the runs.  ``sure`` is the fewest digits by Sohier's estimate, which counts the digits of a run that are
+    right with probability 95 %.  ``times`` is the number of values.  ``inexact`` is the number of values that differ
+    between the runs, and ``zeros`` is the number of computational zeros among these.
     """
 
     line: Line
@@ -52,7 +52,7 @@ class StatementDigits:
 class DecisionShares:
     """The decisions of an IF on floating-point numbers in the random runs.
 
-    ``times`` is the number of its executions, and ``disputed`` the number of executions at which the runs disagreed.
+    ``times`` is the number of its executions, and ``disputed`` is the number of executions at which the runs disagreed.
     The first disputed execution is the one with the number ``time``.  ``shares`` has the numbers of runs in which the
     tested value was negative, zero and positive at this execution, and ``taken`` is the sign whose branch was taken.
     """
@@ -97,7 +97,9 @@ class _Votes:
 
 
 def sampled(studied: Numbers, runs: int = 10, seed: int = 1, rules: str = "") -> SampledNumbers:
-    """Return an arithmetic for several random runs in step, with as many digits as ``studied`` (eight if it is exact).
+    """Return an arithmetic for several random runs in step.
+
+    Its precision is that of ``studied``, or eight digits if ``studied`` is exact.
 
     ``rules`` is the end of the arithmetic's name: ``:proportional``, ``:majority``, both in this order, or nothing.
     Raise ArgumentError if a seed is out of range.
@@ -162,7 +164,7 @@ def _fraction(value: Fraction | int | None) -> Fraction | None:
 
 
 def _vote(votes: _Votes, signs: Sequence[int], branch: Sequence[int], taken: int) -> None:
-    """Count an execution of an IF.  It counts as disputed if the sign in some run would select another branch."""
+    """Count an execution of an IF, as disputed if the sign in some run would select another branch."""
     votes.times += 1
     if {branch[1 + sign] for sign in signs} != {branch[1 + taken]}:
         votes.disputed += 1

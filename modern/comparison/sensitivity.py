@@ -1,8 +1,8 @@
 """Measure how much a program's printed numbers change if a number on its input cards changes.
 
 Each floating-point number of the deck is changed in turn by one unit in its last digit, and the program runs again in
-an arithmetic that makes no or much smaller rounding errors.  The changes of the printed numbers are then due to the
-change of the card alone.
+an arithmetic that makes no rounding errors or much smaller ones.  The changes of the printed numbers are then due to
+the change of the card alone.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _LAST = re.compile(r"(\d)(\.?\s*(?:E\s*[+-]?\s*\d*|[+-]\s*\d+)?\s*)$")
 class Sensitivity:
     """The effect on a program's output of changing one number on a card by one unit in its last digit.
 
-    ``change`` is the largest relative change of a printed number, and ``record`` the number of its record, from 1.
+    ``change`` is the largest relative change of a printed number, and ``record`` is the number of its record, from 1.
     Both are None if nothing changes.  ``branches`` is True if the changed number makes the run print records of another
     form or end in another way.
     """

@@ -62,9 +62,9 @@ def read_itk(path: str, kind: str, series: str | None = None) -> Scan:
 
     ``series`` identifies one of several DICOM series in a folder. Positions are those of SimpleITK. Their axes point
     left, posterior and superior (LPS), and their unit is the millimetre if the format states a unit. A TIFF file has no
-    position. Raise FileError if the file cannot be read. Raise VolumeError if the file is damaged, if SimpleITK is not
-    installed, rejects the file, crashes or exceeds the time limit, if a voxel has several values, or if there are more
-    than ``MAX_CELLS`` voxels.
+    position. Raise FileError if the file cannot be read. Raise VolumeError if the file is damaged, if a voxel has
+    several values, if there are more than ``MAX_CELLS`` voxels, or if SimpleITK is not installed, rejects the file,
+    crashes or exceeds the time limit.
     """
     if kind == SERIES:
         _check_folder(path)

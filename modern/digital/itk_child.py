@@ -1,8 +1,9 @@
 """The separate process in which SimpleITK reads a file. It imports nothing of the project and prints nothing.
 
 The arguments are the format, the path, a folder for the result, the largest number of voxels, and the identifier of a
-DICOM series or "". The result is two files: ``array.npy``, in which x varies fastest, and ``facts.json``, which has
-spacing, origin and direction as text, notes for the user and the names of the files of a series, or an error message.
+DICOM series or "". The result is two files: ``array.npy``, in which x varies fastest, and ``facts.json``. This second
+file has either an error message, or spacing, origin and direction as text, notes for the user and the names of the
+files of a series.
 """
 
 import contextlib

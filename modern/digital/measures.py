@@ -20,8 +20,8 @@ Whole = tuple[int, int, int]
 class Measures:
     """The measures of a solid and its hull, in physical units, or in voxels if the position is unknown.
 
-    ``voxels`` is the number of the solid's voxels, and ``volume`` their volume. A flat hull has the volume 0. The area
-    of a polygon is that of one side; the area of a segment or a point is 0.
+    ``voxels`` is the number of the solid's voxels, and ``volume`` is their volume. A flat hull has the volume 0. The
+    area of a polygon is that of one side. The area of a segment or a point is 0.
     """
 
     voxels: int

@@ -32,8 +32,9 @@ class Volume:
     ``array`` holds truth values of shape (nx, ny) or (nx, ny, nz), indexed [x, y, z], in any memory order. ``origin``
     has the coordinates of the voxel at index 0, 0, 0, so array[i, j, k] is the voxel origin + (i, j, k). ``source`` is
     the name in messages, and ``notes`` are notes of the reader for the user, one line each. ``world`` maps the
-    coordinates of voxels to physical coordinates, or is None if their position is unknown. Raise VolumeError for an
-    array of another type or dimension, and if ``origin`` or ``world`` does not have as many axes as the array.
+    coordinates of voxels to physical coordinates, or is None if their position is unknown. Raise VolumeError if the
+    array has another type or dimension, or if the number of axes of ``origin`` or ``world`` differs from that of the
+    array.
     """
 
     array: Voxels

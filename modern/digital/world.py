@@ -40,8 +40,9 @@ class World:
 
     ``steps`` has for each axis of the array the vector from the centre of a voxel to the centre of the next voxel.
     ``origin`` is the centre of voxel (0, 0, 0). ``space`` names the directions of the physical axes, such as
-    ``left-posterior-superior``, and ``unit`` the unit of lengths, such as ``mm``; both are empty if unknown. Raise
-    VolumeError if steps and origin have different numbers of coordinates or if the steps are linearly dependent.
+    ``left-posterior-superior``, and ``unit`` names the unit of lengths, such as ``mm``. Either is empty if it is
+    unknown. Raise VolumeError if steps and origin have different numbers of coordinates or if the steps are linearly
+    dependent.
     """
 
     steps: tuple[Position, ...]

@@ -53,16 +53,16 @@ def draw_svg(
 ) -> str:
     """Return a picture of a hull as the text of an SVG file.
 
-    ``eye`` is the direction from the hull to the eye. If ``eye`` is None, the program chooses a direction: for a
-    polyhedron one of a fixed list, such that no face is edge-on and no two vertices coincide, and for a polygon or a
-    segment a perpendicular direction. ``title`` is a line below the picture. ``width`` is 320 to 4000 pixels, by
-    default 640, or 1000 for more than 120 points. Raise ExportError if there is no hull, if the direction is 0,0,0, if
-    a polygon would appear as a line or a segment as a point, or if the width is out of range.
+    ``eye`` is the direction from the hull to the eye. If ``eye`` is None, the program chooses the direction. For a
+    polyhedron, it chooses from a fixed list a direction in which no face is edge-on and no two vertices coincide. For a
+    polygon or a segment, it chooses a perpendicular direction. ``title`` is a line below the picture. ``width`` is 320
+    to 4000 pixels, by default 640, or 1000 for more than 120 points. Raise ExportError if there is no hull, if the
+    direction is 0,0,0, if a polygon would appear as a line or a segment as a point, or if the width is out of range.
 
     Vertices within 2.5 pixels of each other share a label with all their numbers. With more than 120 points only
-    visible vertices are numbered, and with more than 400 vertices no vertex is. Visible faces are shaded. If one face
-    of an edge is edge-on and the other one is not visible, the edge lies on the outline and is drawn as visible. The
-    same hull gives the same text on every machine.
+    visible vertices are numbered, and with more than 400 vertices no vertex is numbered. Visible faces are shaded. If
+    one face of an edge is edge-on and the other one is not visible, the edge lies on the outline and is drawn as
+    visible. The same hull gives the same text on every machine.
     """
     show = show or Show()
     picture = filter_scene(scene(hull, None if eye is None else [Fraction(number) for number in eye]), show)

@@ -28,9 +28,10 @@ WAITING = svg.Style("waiting", "not tested yet", "dot", 'fill="#fff" stroke="#77
 class Frame:
     """The picture of one stage of the construction of a hull.
 
-    ``waiting`` are the positions of the points not tested yet, ``struck`` those of the points that have been
-    eliminated as inside so far, and ``added`` those of the vertices that this stage added.  In the last stage no point
-    waits: ``boundary`` are then the positions of the points on the boundary of the hull that are not vertices.
+    The fields are positions of points in the picture. ``waiting`` are the points not tested yet, ``struck`` are the
+    points that have been eliminated as inside so far, and ``added`` are the vertices that this stage added.  In the
+    last stage no point waits: ``boundary`` are then the positions of the points on the boundary of the hull that are
+    not vertices.
     """
 
     stage: Stage

@@ -52,7 +52,7 @@ def _representatives() -> Mapping[int, str]:
 
 @cache
 def folded(text: str) -> str:
-    """Return a text in which characters that may be confused are replaced by one character that represents them."""
+    """Return a text in which each character is replaced by the representative of all characters confused with it."""
     return text.translate(_representatives())
 
 

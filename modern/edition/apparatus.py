@@ -1,9 +1,9 @@
 """Build a text by applying the rows of its apparatus to its witness.
 
-A *witness* is the OCR text of a printed page, kept verbatim.  Lines that begin with ``## `` are page marks; the editor
-added them, and they are not part of the witness.  A *row* is one emendation: its place, the reading of the witness, the
-accepted reading (the lemma), the reason and the evidence.  :func:`build` applies the rows of the chosen layers.  Each
-line of the result names the witness line or the row that it comes from.
+A *witness* is the OCR text of a printed page, kept verbatim.  Lines that begin with ``## `` are page marks.  The editor
+added the page marks, and they are not part of the witness.  A *row* is one emendation: its place, the reading of the
+witness, the accepted reading (the lemma), the reason and the evidence.  :func:`build` applies the rows of the chosen
+layers.  Each line of the result names the witness line or the row that it comes from.
 
 ``fortran_src/README.md`` describes the file format.  This module knows nothing about FORTRAN or hulls.
 """
@@ -153,7 +153,7 @@ class Text:
 
 
 def read_witness(source: str, furniture: Collection[str] = ()) -> tuple[Line, ...]:
-    """Return the lines of a witness.  Their ids are line numbers from 1; page marks are not counted.
+    """Return the lines of a witness.  Their ids are line numbers from 1, which do not count page marks.
 
     Blank lines and the lines in ``furniture``, such as code fences, are counted but not returned.
     """

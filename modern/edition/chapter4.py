@@ -36,8 +36,8 @@ class Point:
 class Plane:
     """The plane Ax + By + Cz + D = 0 of a worked example.
 
-    ``coefficients`` are A, B, C and D, and ``vertices`` the points that the plane contains according to the thesis.
-    ``printed`` is its equation as printed, and ``line`` the id of the printed line.
+    ``coefficients`` are A, B, C and D, and ``vertices`` are the points that the plane contains according to the thesis.
+    ``printed`` is its equation as printed, and ``line`` is the id of the printed line.
     """
 
     number: int

@@ -1,9 +1,10 @@
 """The layout of chapter 6 (``transcripts/chapter6/layout.toml``) and its committed device files.
 
 A *device file* is an input deck, the cards that a program punches, or the lines that it types.  The printed text of
-chapter 6 supplies the words and numbers of these files in their order.  The layout supplies the columns and blank
-cards, which the OCR lost and the FORMAT statements determine (layer ``layout``), and the typed lines, which the thesis
-describes but does not print (layer ``stated``).  :mod:`modern.edition.chapter6_cards` combines text and layout.
+chapter 6 supplies the words and numbers of these files in their order.  In the layer ``layout``, the layout supplies
+the columns and blank cards, which the OCR lost and the FORMAT statements determine.  In the layer ``stated``, it
+supplies the typed lines, which the thesis describes but does not print.  :mod:`modern.edition.chapter6_cards` combines
+text and layout.
 """
 
 import tomllib
@@ -37,7 +38,7 @@ class LayoutError(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class Format:
-    """A FORMAT statement: ``text`` is the restored text, ``listed`` the OCR text of the listing on ``page``.
+    """A FORMAT statement: ``text`` is the restored text, and ``listed`` is the OCR text of the listing on ``page``.
 
     ``note`` explains a difference between both texts.
     """
@@ -70,7 +71,7 @@ class Field:
 class CardShape:
     """One of the cards that a FORMAT punches for ``values`` numbers.
 
-    ``record`` is the number of the card among these cards, counted from 1; blank cards count.
+    ``record`` is the number of the card among these cards, counted from 1 and including blank cards.
     """
 
     id: str
@@ -85,8 +86,8 @@ class CardShape:
 class DeviceLayout:
     """The layout of a device file.
 
-    In the layer ``layout``, ``span`` has the ids of its first and last printed line, and ``cards`` its cards with their
-    roles.  In the layer ``stated``, ``typed`` has its lines.
+    In the layer ``layout``, ``span`` has the ids of its first and last printed line, and ``cards`` has its cards with
+    their roles.  In the layer ``stated``, ``typed`` has its lines.
     """
 
     example: int

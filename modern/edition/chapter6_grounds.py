@@ -6,8 +6,8 @@ out.  This detects superfluous and wrong rows.  Grounds use only the printed tex
 
 ``width``       every line that the row changes consists of well-formed numbers and words
 ``deck``        a line that the row changes has the same numbers as the card that the ground names by ``example``,
-                ``program``, ``device`` and ``card``; with ``field``, the number in this field occurs more often in the
-                changed lines with the row than without it
+                ``program``, ``device`` and ``card``.  If the ground also names a ``field``, the number in this field
+                occurs more often in the changed lines with the row than without it
 ``arithmetic``  ``check = "plane"``: the equation is zero at its printed vertices, which the ground also names;
                 ``"carrier"``: the equation of the common plane of example 4 is zero at all points; ``"centre"``: the
                 inside point C is the mean of the first four points; ``"minus-with-point"``: in the named lines the OCR

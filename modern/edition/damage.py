@@ -1,9 +1,9 @@
 """Damage texts as the OCR damaged the listings: exchange characters that ``confusables.toml`` lists as misread.
 
 ``fortran_src/apparatus/confusables.toml`` has pairs: characters that the card has (the lemma), and characters that the
-OCR read instead (the witness).  :func:`rates` returns how often the OCR did this in the listings: the number of places
-that rows of the layer ``ocr`` correct, divided by the number of places with the lemma.  :func:`damaged` damages a text
-at such rates.
+OCR read instead (the witness).  :func:`rates` returns how often the OCR misread the characters of a pair in the
+listings: the number of places that rows of the layer ``ocr`` correct, divided by the number of places with the lemma.
+:func:`damaged` damages a text at such rates.
 """
 
 from collections.abc import Callable, Mapping, Sequence

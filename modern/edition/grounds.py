@@ -7,7 +7,7 @@ The *ground* of a row names its evidence.  :func:`check_row` removes the row and
 ``deck``      without the row, the program punches different cards for a data deck
 ``forced``    with the row, the card equals a similar card in which names are exchanged; without the row, it does not.
               If the ground names the first and the last card of an ``equation``, the cards from the first to the last
-              must also compute V (thesis p. 15) with the row, and must not without it
+              must also compute V (thesis p. 15) with the row, and must not compute it without the row
 ``cosmetic``  the row changes only the look of a card: the object code is the same with and without the row
 ``page``      someone who read the page has reported the card as the row has it
 
@@ -76,8 +76,8 @@ def check_decks() -> Iterator[Proof]:
 def check_layers() -> Iterator[Proof]:
     """Check the programs with each optional layer.  Their decks are not committed; SOURCES.toml has their hashes.
 
-    With the layer ``corrected`` the programs must also give the exact hull for each deck that a correction names.
-    The exact hulls need numpy; without it, they are not compared.
+    With the layer ``corrected`` the programs must also give the exact hull for each deck that a correction names.  The
+    exact hulls need numpy.  If numpy is not installed, they are not compared.
     """
     table = provenance.sources().layered
     for layer in dict.fromkeys(layer for _, layer, _ in table):
@@ -290,7 +290,7 @@ class _Outcome:
 
     @property
     def trouble(self) -> str:
-        """The message of an abnormal end; empty after a normal end."""
+        """The message of an abnormal end, or empty after a normal end."""
         return self.ending.message if isinstance(self.ending, Ending) else str(self.ending)
 
     def same_as(self, other: "_Outcome") -> bool:

@@ -25,8 +25,8 @@ class Reading:
     """The answer to one item or question, by someone who read the printed page.
 
     ``outcome`` is ``confirmed``, ``changed``, ``answered`` (for an open question) or ``unreadable``.  ``card`` is the
-    card as the page has it, and ``row`` the id of the row that was added to the apparatus because of it.  ``rows`` has
-    the ids of the rows that the answer makes certain, separated by blanks.
+    card as the page has it, and ``row`` is the id of the row that was added to the apparatus because of this card.
+    ``rows`` has the ids of the rows that the answer makes certain, separated by blanks.
     """
 
     item: str

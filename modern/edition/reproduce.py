@@ -1,9 +1,9 @@
 """Run the examples of chapter 6 and give a verdict on every printed result.
 
-Each example is run with two states of program 1: the state that produced the printed examples, which was reconstructed
-from them, and the listing of chapter 5, which chooses its first points differently.  Programs 2 and 3 then read the
-punched cards.  The printed text proves numbers, signs, order and words.  It does not prove blank cards and columns,
-which the OCR lost and the FORMATs supply.  A verdict therefore counts blank cards separately.
+Each example is run with two states of program 1.  The first state produced the printed examples and was reconstructed
+from them.  The second state is the listing of chapter 5, which chooses its first points differently.  Programs 2 and 3
+then read the punched cards.  The printed text proves numbers, signs, order and words.  It does not prove blank cards
+and columns, which the OCR lost and the FORMATs supply.  A verdict therefore counts blank cards separately.
 """
 
 import re
@@ -67,8 +67,8 @@ class Verdict:
 class Report:
     """The verdict on the output of one program on one device, in one example with one state of program 1.
 
-    ``ending`` says how the run of the program ended. It is an error if the job failed with one, and None if the program
-    did not run.
+    ``ending`` says how the run of the program ended.  It is the error if the job failed with an error, and None if the
+    program did not run.
     """
 
     example: int

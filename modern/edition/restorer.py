@@ -50,7 +50,7 @@ ALONE = 20
 class Restored:
     """A card that the restorer changed, or for which it abstained.
 
-    ``card`` is the index of the card from 0, and ``text`` its text without blanks.
+    ``card`` is the index of the card from 0, and ``text`` is its text without blanks.
     """
 
     card: int
@@ -76,7 +76,7 @@ def restore(jobs: Sequence[Job], weights: Mapping[str, int]) -> list[list[Restor
     """Restore programs together, because the cards of one program may be siblings of cards of another.
 
     Return, for each program, the cards that are changed or for which the restorer abstains.  ``weights`` has the number
-    of places in which the apparatus uses each pair; a key consists of the witness, a tab and the lemma.
+    of places in which the apparatus uses each pair.  The key of a pair consists of its witness, a tab and its lemma.
     """
     every = [_Program([_solid(card) for card in job.cards], job.trials) for job in jobs]
     for program, job in zip(every, jobs, strict=True):

@@ -5,8 +5,8 @@
 are nested, because a row of a later layer may change the result of an earlier row.  :func:`reading` returns the text
 with any choice of layers.
 
-A place contains only what changes: a row that arranges a card in columns has places of blanks only, and a word that a
-row moves has one place where it disappears and one place where it appears.
+A place contains only the text that changes.  A row that arranges a card in columns has places of blanks only.  A word
+that a row moves has two places: one where it disappears and one where it appears.
 """
 
 from collections.abc import Collection, Iterable
@@ -170,9 +170,9 @@ def _changed(
 ) -> tuple[Piece, ...]:
     """Return the pieces of a line with ``place`` instead of the characters ``first`` to ``last`` of its text.
 
-    If an earlier place contains the whole fragment, the new place is put into the new reading of the earlier place.  An
-    earlier place that contains only a part of the fragment becomes part of the old reading as a whole; the text of the
-    earlier place outside the fragment is then repeated in both readings.
+    If an earlier place contains the whole fragment, the new place is put into the new reading of the earlier place.  If
+    an earlier place contains only a part of the fragment, the whole earlier place becomes part of the old reading.  The
+    text of the earlier place outside the fragment is then repeated in both readings.
     """
     before: list[Piece] = []
     within: list[Piece] = []

@@ -1,8 +1,8 @@
 """Proof sheets: for each page of the thesis, questions about the readings that only the printed page can decide.
 
 A *silent reading* is an altered card that no check detects (``fortran_src/silent.csv``, written by
-:mod:`modern.edition.weight`).  An :class:`Item` asks for one token of a card; its choices are the restored token and
-the silent readings of this token.  Each silent reading and each open question about the text
+:mod:`modern.edition.weight`).  An :class:`Item` asks for one token of a card.  The choices of the item are the restored
+token and the silent readings of this token.  Each silent reading and each open question about the text
 (``fortran_src/questions.toml``) is on exactly one sheet.  :mod:`modern.edition.page_readings` reads a filled sheet.
 """
 
@@ -49,9 +49,9 @@ class Choice:
 class Item:
     """A question about one token of a card.
 
-    ``first`` is the first column of the token, counted from 0, and ``last`` the column after it.  ``how`` is the kind
-    of the alteration, as in :class:`modern.edition.variants.Variant`.  The first choice is the restored reading.
-    ``variants`` has the keys of the silent readings, which are the other choices.
+    ``first`` is the first column of the token, counted from 0, and ``last`` is the column after the token.  ``how`` is
+    the kind of the alteration, as in :class:`modern.edition.variants.Variant`.  The first choice is the restored
+    reading.  ``variants`` has the keys of the silent readings, which are the other choices.
     """
 
     id: str
@@ -92,7 +92,10 @@ class Sheet:
 
 
 def sheets(answered: Iterable[str] = ()) -> tuple[Sheet, ...]:
-    """Return a sheet for each page with unanswered items or questions; ``answered`` has the ids of the others."""
+    """Return a sheet for each page with unanswered items or questions.
+
+    ``answered`` has the ids of the answered items and questions.
+    """
     done = set(answered)
     by_page: dict[tuple[str, str], tuple[list[Card], list[Item]]] = {}
     for name in programs.TEXTS:

@@ -61,7 +61,7 @@ class Stretch:
 class Excerpt:
     """An excerpt of a document, which is the witness of a text.
 
-    ``text`` is the id of the text, ``document`` that of the document, and ``stretches`` has the copied lines.
+    ``text`` is the id of the text, ``document`` is the id of the document, and ``stretches`` has the copied lines.
     """
 
     text: str
@@ -85,7 +85,8 @@ class Excerpt:
 class Transcription:
     """Another transcription of a document.
 
-    ``file`` is the file of its collation, and ``sha256`` the hash of this file.  Both are empty without a collation.
+    ``file`` is the file of its collation, and ``sha256`` is the hash of this file.  Both are empty if there is no
+    collation.
     """
 
     id: str

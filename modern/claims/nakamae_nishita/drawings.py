@@ -32,7 +32,7 @@ def _draw_boxes(random: Random) -> tuple[Box, ...]:
 
 
 def _apart(boxes: tuple[Box, ...]) -> bool:
-    """Return True if all boxes have a positive size and no two touch; reduced counterexamples may violate this."""
+    """Return True if all boxes have a positive size and no two of them touch. A reduced case may violate this."""
     if any(min(b - a for a, b in zip(*box, strict=True)) < 1 for box in boxes):
         return False
     return all(any(p[1][k] < q[0][k] or q[1][k] < p[0][k] for k in range(3)) for p, q in combinations(boxes, 2))

@@ -79,7 +79,8 @@ def inside(p: Place, v: tuple[Place, ...]) -> bool:
 def overlap(v: tuple[Place, ...], w: tuple[Place, ...]) -> bool:
     """Return True if the hulls of two sets have common inner points.
 
-    They have if 0 is inside the hull of all differences between a point of one set and a point of the other.
+    The hulls have common inner points if 0 is inside the hull of all differences between a point of one set and a point
+    of the other.
     """
     differences = sorted({(q[0] - p[0], q[1] - p[1], 0) for p in v for q in w})
     ring = [differences[k][:2] for k in exact_hull(differences).polygon]
@@ -256,9 +257,9 @@ def _property(
 ) -> tuple[list[tuple[bool, bool]], bool]:
     """Return the premise and the conclusion of a property for each case, and True if a line without -1 touches w.
 
-    Property 3 says that a line of v does not cross w if no vertex of w has the sign -1; such a line may still touch w.
-    ``of_lines`` has, for each line of v, the signs of the vertices of w. ``met`` has the values of d, formula (3), for
-    each line of v and each line of w.
+    Property 3 says that a line of v does not cross w if no vertex of w has the sign -1. In this case the line may still
+    touch w. ``of_lines`` has, for each line of v, the signs of the vertices of w. ``met`` has the values of d, formula
+    (3), for each line of v and each line of w.
     """
     if number == "1":
         return [(any(1 not in line for line in of_lines), not overlap(v, w))], False

@@ -245,6 +245,9 @@ def _volumes_and_planes(points: Sequence[Point]) -> tuple[tuple[int, int], tuple
 
 
 def _extreme_points(points: Sequence[Point]) -> list[Point]:
-    """Return the extreme points of a set; of several equal ones the last, as in program 1 (statements 134 to 146)."""
+    """Return the extreme points of a set.
+
+    If several are equal, take the last, as program 1 does (statements 134 to 146).
+    """
     extreme = {choose(reversed(points), key=lambda p, k=k: p[k]) for choose in (min, max) for k in range(3)}  # type: ignore[misc]
     return [point for point in points if point in extreme]

@@ -102,8 +102,8 @@ def fifty_one_points() -> Check:
 def entries_of_plane_table() -> int:
     """Return the largest number of entries of the plane table in use at once for the deck ``table.deck``.
 
-    Each step keeps the planes of the previous hull, adds three for each replaced plane and then removes the replaced
-    one.
+    Each step keeps the planes of the previous hull and adds three planes for each plane that it replaces. Only then
+    does it remove the replaced planes.
     """
     hull = convex_hull(points_on(deck_of("table.deck")), history=True)
     return max(len(before.equations) + 2 * after.outside + 1 for before, after in pairwise(hull.history))

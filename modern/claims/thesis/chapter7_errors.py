@@ -117,7 +117,7 @@ def fourth_point_off_plane() -> Check:
 
 
 def _draw_truncated(random: Random) -> tuple[Point, ...]:
-    """Return six points; with larger coordinates, the equations of more planes and lines are truncated."""
+    """Return six points. The larger their coordinates, the more equations of planes and lines are truncated."""
     limit, is_flat = random.choice((99, 999, 9999)), random.random() < 0.5
     rows = [[random.randint(-limit, limit) for _ in "xyz"] for _ in range(6)]
     return tuple((x, y, 0 if is_flat else z) for x, y, z in rows)

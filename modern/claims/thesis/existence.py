@@ -95,8 +95,8 @@ def table_1() -> Iterator[bool]:
 def _are_separate(first: Sequence[str], second: Sequence[str], at: Mapping[str, Lattice]) -> bool:
     """Return True if two triangles do not meet except in their common corners and sides.
 
-    Two triangles with a common side must not be coplanar.  Otherwise a plane must separate the triangles; it may
-    contain only their common corner, if they have one.
+    Two triangles with a common side must not be coplanar.  If two triangles have no common side, a plane must separate
+    them.  The only point of the triangles that this plane may contain is a common corner.
     """
     shared = {*first} & {*second}
     rest = [[at[name] for name in face if name not in shared] for face in (first, second)]

@@ -1,9 +1,9 @@
 """Proofs of theorems 4.3 to 4.7 of the thesis.
 
 Each proof is an argument in sentences and the steps on which the argument rests; :mod:`modern.claims.algebra` checks
-the steps.  Points of the plane are a, b, c, ...; [a, b, c] is positive if c is to the left of the line from a to b.
-The vertices of H_j, a hull of the construction, are named counterclockwise.  A point h is therefore outside the
-line a b if [a, b, h] is negative.
+the steps.  Points of the plane are named a, b, c and so on.  The bracket [a, b, c] is positive if c is to the left of
+the line from a to b.  The vertices of H_j, a hull of the construction, are named counterclockwise.  A point h is
+therefore outside the line a b if [a, b, h] is negative.
 """
 
 from __future__ import annotations
@@ -189,7 +189,7 @@ def theorem_4_6() -> Proof:
 
 
 def _boundary_steps() -> Iterator[Step]:
-    """Yield the steps that prove that no point where a linear function is largest is inside a triangle of the set."""
+    """Yield the steps of this proof: a point where a linear function is largest is inside no triangle of the set."""
     yield largest_value()
     p, q, r = point("p", 2), point("q", 2), point("r", 2)
     slope = variables("L_1 L_2")

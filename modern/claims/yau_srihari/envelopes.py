@@ -190,8 +190,9 @@ def convex_solid_fails_test() -> Check:
     """Check that a simple solid that fails the test of convexity is convex by definition 3.2.3.
 
     The half-cell expansion of the solid consists of cells [a, a + 1] with integers a.  Let Q be the hull of cubes of
-    side 1/4 around the solid's points.  It meets each of these cells, because a corner of a cube is inside.  It meets
-    another cell, open or closed, only if a is in the hull of the points of Q, each moved by -1 or 0 along each axis.
+    side 1/4 around the solid's points.  Q meets each of these cells, because a corner of a cube is inside the cell.  Q
+    meets another cell, open or closed, only if a is in the hull of the points that result if each point of Q is moved
+    by -1 or 0 along each axis.
     """
     solid = counterexample_points("yau_near.csv")
     cells = {(x - 1, y - 1, z - 1) for x, y, z in np.argwhere(half_cell_expansion(array_of(solid))).tolist()}

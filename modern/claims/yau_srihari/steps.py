@@ -99,7 +99,10 @@ def _extreme(place: Place, axis: int, heights_: Mapping[Place, int]) -> bool:
 
 
 class _Counted(Search):
-    """A search that counts in ``taken`` the points whose angles it computes; ``angles`` also counts square corners."""
+    """A search that counts in ``taken`` the points whose angles it computes.
+
+    ``angles`` of the search also counts corners of squares.
+    """
 
     taken = 0
 

@@ -1,8 +1,8 @@
 """What all commands share: exit codes, error messages, notes on standard error, and checks of outputs.
 
-The exit codes are OK: the run ended normally; DIFFERS: a result differs, or a program stopped after typing DATA NOT
-ACCEPTABLE or ERROR IN PROGRAM, reached the statement limit, or used a subscript out of bounds; BAD_INPUT: the input is
-invalid, and one line on standard error explains the error.
+The exit code OK means that the run ended normally.  DIFFERS means that a result differs, or that a program stopped
+after typing DATA NOT ACCEPTABLE or ERROR IN PROGRAM, reached the limit of its work, or used a subscript out of bounds.
+BAD_INPUT means that the input is invalid.  One line on standard error then explains the error.
 """
 
 from __future__ import annotations

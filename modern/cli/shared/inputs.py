@@ -122,8 +122,8 @@ def exact_hull_of(
 ) -> tuple[Hull, list[str]]:
     """Return the hull of a file's points in exact arithmetic, and notes for the user.
 
-    procedure: use Butler's procedure, which also gives the equations in her order, the inside point C and, with
-    ``history``, the stages of the construction.  Otherwise use a method that is much faster for many points.
+    procedure: True to use Butler's procedure, which also gives the equations in her order, the inside point C and, with
+    ``history``, the stages of the construction.  False to use a method that is much faster for many points.
     within: merge faces whose vertices lie within this distance of one plane.
     """
     from modern.geometry.coplanar import FLAT, CoplanarError, coplanar, join_summary, parse_distance

@@ -107,7 +107,10 @@ def _to_digits(number: int | Fraction | Decimal, digits: int) -> str:
 
 
 def _with_exact(number: Fraction) -> str:
-    """Return a number as an exact decimal if short, otherwise rounded, with the exact fraction if that is short."""
+    """Return the exact decimal of a number if it is short, otherwise a rounded decimal.
+
+    The exact fraction precedes the rounded decimal if the fraction is short.
+    """
     text = finite_decimal(number)
     if text is not None and len(text) <= 2 * TABLE_DIGITS:
         return text

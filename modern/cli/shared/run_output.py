@@ -55,7 +55,7 @@ def print_run(
 
 
 def print_ending(result: Result) -> None:
-    """Print how a run ended, unless it ended normally; for a subscript out of bounds, mention ``--bounds core``."""
+    """Print how a run ended, unless it ended normally.  If a subscript was out of bounds, mention ``--bounds core``."""
     if not result.ending.normal:
         advice = (
             "; --bounds core reads the neighbouring field, as the machine did" if result.ending.kind == "bounds" else ""

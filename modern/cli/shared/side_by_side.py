@@ -57,10 +57,10 @@ def side_by_side(
     indent: int = 6,
     paint: Paint = str,
 ) -> Iterator[str]:
-    """Yield two texts in two columns if ``width`` suffices, otherwise each pair of lines one below the other.
+    """Yield two texts in two columns, or with the lines of each pair below one another if ``width`` is too small.
 
-    heads: the headings of the two texts.  columns: compare column by column, blanks included; otherwise ignore the
-    spacing.  paint: a function that colours a line of carets.  Lines that are too long for ``width`` are broken.
+    heads: the headings of the two texts.  columns: True to compare column by column, including blanks, False to ignore
+    the spacing.  paint: a function that colours a line of carets.  Lines that are too long for ``width`` are broken.
     """
     pairs = list(_pairs(first, second, columns))
     if not pairs:

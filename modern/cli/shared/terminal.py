@@ -1,7 +1,7 @@
 """Let the person at the terminal be the operator of a run.
 
-The terminal must show only lines of text, and send single keys; backspace is its only cursor movement.  It is the
-controlling terminal, ``/dev/tty``, even if the standard streams are redirected.
+The terminal needs only two abilities: to show lines of text, with backspace as the only movement of the cursor, and to
+send single keys. The module uses the controlling terminal, ``/dev/tty``, even if the standard streams are redirected.
 """
 
 import os
@@ -99,7 +99,8 @@ class Keys:
 class Terminal(Operator):
     """An operator who reads the typed lines at the terminal and types the answers there.
 
-    slow: show lines at the speed of the typewriter.  waits: a program that has just been loaded waits for START.
+    slow: True to show lines at the speed of the typewriter. waits: True if a program that has just been loaded waits
+    for START.
     """
 
     present = True
@@ -118,7 +119,7 @@ class Terminal(Operator):
         self._cards.see(events)
 
     def show(self, line: str) -> None:
-        """Show a line of the typewriter; ATTN completes a slow line at once."""
+        """Show a line of the typewriter. If it is shown slowly, ATTN completes it at once."""
         for start in range(len(line) + 1 if self._slow else 0):
             self._keys.write(line[start : start + 1] or "\n")
             self._collect()

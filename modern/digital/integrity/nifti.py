@@ -39,9 +39,9 @@ Affine = NDArray[np.float64]
 class NiftiHeader:
     """The contents of a NIfTI header.
 
-    ``sizes`` has the number of voxels along each axis, and ``spacing`` their distances in millimetres. ``forms`` has
-    the two positions of the voxels that a header may state, ``qform`` and ``sform``, as affine maps. ``scaling`` is a
-    note if the values are scaled, otherwise "".
+    ``sizes`` has the number of voxels along each axis, and ``spacing`` has the distances between neighbouring voxels in
+    millimetres. ``forms`` has the two positions of the voxels that a header may state, ``qform`` and ``sform``, as
+    affine maps. ``scaling`` is a note if the values are scaled, otherwise "".
     """
 
     sizes: tuple[int, ...]

@@ -52,7 +52,7 @@ def check_tiff(path: str) -> tuple[int, ...]:
 
 
 class _Reader:
-    """An open TIFF file. ``order`` is its byte order, and ``size`` its length."""
+    """An open TIFF file. ``order`` is its byte order, and ``size`` is its length."""
 
     def __init__(self, file: BinaryIO, path: str) -> None:
         self.file, self.path, self.size = file, path, os.fstat(file.fileno()).st_size
