@@ -10,8 +10,8 @@ To add a built-in study:
    (:class:`modern.study.builtin.Study`).  The command line uses the name of the module, with hyphens for underscores.
 2. Add the name to ``STUDIES`` in ``modern/cli/shared/arguments.py``, from which the shell completes it.
 3. Test its report in ``tests/modern/study/test_study_reports.py`` on rows made for the test.
-4. Run it at full size and commit its report, tables, charts and manifest in ``docs/studies/NAME/``; describe the result
-   in ``docs/explanation/studies.md``, and new columns in ``modern/publication/columns.toml``.
+4. Run it at full size and commit its report, tables, charts and manifest in ``docs/studies/NAME/``. Describe the result
+   in ``docs/explanation/studies.md``, and describe new columns in ``modern/publication/columns.toml``.
    ``test_docs_studies.py`` compares the figures that this page quotes with the tables.
 
 To add a family of point sets, see ``families/__init__.py``.  To add a measure, a function that computes further figures

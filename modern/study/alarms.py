@@ -17,9 +17,9 @@ A method raises an *alarm* at a decision if it cannot confirm the target that th
 
 The measure also records which branch a program would take if it used a method to decide.  With ``cadna3``, ``cadna10``
 and ``parker10``, a number without a significant digit counts as zero.  With ``vote10``, the branch to which most of the
-ten samples lead is taken.  Chapter 7's e applies to the decisions that the layer ``epsilon`` changes.  It raises
-an alarm if the number is within e of zero, but not zero, and zero leads to another target.  The measure records the
-least power of ten that raises an alarm if it is used as e.
+ten samples lead is taken.  Chapter 7's e applies to the decisions that the layer ``epsilon`` changes.  This tolerance
+raises an alarm if the number is within e of zero, but not zero, and zero leads to another target.  The measure records
+the least power of ten that raises an alarm if it is used as e.
 """
 
 import hashlib
@@ -228,7 +228,10 @@ def _judged(tally: _Tally, test: Test, known: Mapping[str, Any], has_e: bool) ->
 
 
 def _count_digits(tally: _Tally, known: Mapping[str, Any], bounds: Interval) -> None:
-    """Record the estimates of a number's correct digits under their true number, unless the number has no error."""
+    """Record the estimates of a number's correct digits, with the true number of correct digits as the key.
+
+    Nothing is recorded for a number without error.
+    """
     mantissa, exponent = known["machine"]
     ratio = float(known["exact"]) / (mantissa * 10.0 ** (exponent - DIGITS))
     # A relative error below the last digit of the machine is a rounding error of this computation.

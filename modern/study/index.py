@@ -1,8 +1,8 @@
 """The SQLite index of a study, from which reports are computed.  Each run of the study builds the index again.
 
 The table ``samples`` has the columns cell, place (the index of the sample), n, dimension, vertices, planes, boundary,
-inside and tags (JSON); the table ``runs`` has cell, place, route, outcome, detail and figures (JSON).  The connection
-of a run locks the file, so a second run in the same folder fails.
+inside and tags (JSON).  The table ``runs`` has the columns cell, place, route, outcome, detail and figures (JSON).  The
+connection of a run locks the file, so a second run in the same folder fails.
 """
 
 import json
@@ -46,7 +46,7 @@ class Row(TypedDict):
 
 
 def open_index(folder: Path) -> sqlite3.Connection:
-    """Open and lock the index of a folder; replace a damaged index.  Raise StudyFileError if it is locked."""
+    """Open and lock the index of a folder.  Replace a damaged index.  Raise StudyFileError if the index is locked."""
     path = folder / NAME
     try:
         try:

@@ -25,7 +25,10 @@ _MANY_BARS = 40
 
 
 def number(value: float, percent: bool = False, power: bool = False) -> str:
-    """Format a number for the label of an axis: ``−1.5``; .35 as ``35 %``; with ``power``, -3 as 10⁻³."""
+    """Format a number for the label of an axis, such as ``−1.5``.
+
+    With ``percent``, .35 becomes ``35 %``.  With ``power``, -3 becomes 10⁻³.
+    """
     text = f"10^{value:.10g}" if power else f"{100 * value:.10g} %" if percent else f"{value:.10g}"
     return typeset(text)
 

@@ -21,7 +21,10 @@ _REQUIRED = ("plan", "versions", "programs_sha256")
 
 
 def versions() -> dict[str, str]:
-    """Return the versions of Python and of the packages on which a study depends; "" for a package that is missing."""
+    """Return the versions of Python and of the packages on which a study depends.
+
+    The version of a missing package is "".
+    """
     installed = {"python": platform.python_version()}
     for package in _PACKAGES:
         try:
@@ -107,7 +110,10 @@ def read_manifest(folder: Path) -> dict[str, Any]:
 
 
 def first_difference(earlier: Mapping[str, Any], current: Mapping[str, Any]) -> str:
-    """Describe the first difference between the manifest in the folder and the current one; empty if they agree."""
+    """Describe the first difference between the manifest in the folder and the current one.
+
+    Return an empty text if the manifests agree.
+    """
     plan, current_plan = earlier["plan"], current["plan"]
     if plan.get("name") != current_plan["name"]:
         return f"the folder holds the study {plan.get('name')}, not {current_plan['name']}"

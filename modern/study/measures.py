@@ -71,10 +71,10 @@ def plane_table(sample: Sample, run: Hull) -> Figures:
 def divergence(sample: Sample, run: HullRun) -> Figures:
     """Find the first statement at which eight-digit and exact arithmetic decide differently on the same cards.
 
-    ``diverges`` names the program and the statement; it is empty if all decisions agree.  It is ``cards to program3``
-    if all decisions of program 1 agree but an equation that program 1 punched with eight digits is not zero at the
-    points of its plane; no arithmetic of the next program can correct this.  ``undecided`` gives the reason if exact
-    arithmetic cannot follow the run.
+    ``diverges`` names the program and the statement, and is empty if all decisions agree.  ``diverges`` is ``cards to
+    program3`` if all decisions of program 1 agree but an equation that program 1 punched with eight digits is not zero
+    at the points of its plane.  No arithmetic of the next program can correct this error.  ``undecided`` gives the
+    reason if exact arithmetic cannot follow the run.
     """
     studied, exact = numbers("truncating"), numbers("exact")
     for step in run.steps:

@@ -2,7 +2,7 @@
 
 docs/explanation/studies.md describes the outcomes.  For collinear points, the programs punch only the two ends of the
 segment.  For three points or fewer, the programs punch no inside points.  Two equations describe the same plane if
-their coefficients agree within :data:`modern.comparison.difference.NEAR`; a figure records the largest error of a
+their coefficients agree within :data:`modern.comparison.difference.NEAR`.  A figure records the largest error of a
 coefficient.
 """
 
@@ -107,7 +107,7 @@ def answer_of_hull(hull: Hull, sample: Sample) -> Answer:
 
 
 def reordered(answer: Answer, reference: Answer) -> Answer:
-    """Return ``answer``; its outcome becomes "reordered" if both hulls are right but their orders differ."""
+    """Return ``answer``, with the outcome "reordered" if both hulls are right but their orders differ."""
     differs = answer.outcome == reference.outcome == "right" and answer.order != reference.order
     return replace(answer, outcome="reordered") if differs else answer
 

@@ -37,7 +37,7 @@ CHUNK = 200
 
 
 class PlanError(EmulatorError):
-    """Raised for a plan that cannot be carried out; the message is one line."""
+    """Raised for a plan that cannot be carried out.  The message is one line."""
 
 
 class StudyFileError(PlanError):
@@ -53,8 +53,8 @@ class Programs:
     single rows of the apparatus, added without the rest of their layer.  arithmetic: the name of an arithmetic
     (:func:`emulator.numbers.numbers`).  epsilon: the e of chapter 7, punched on the first card; it requires the layer
     ``epsilon``.  limit: the number of statements after which a run counts as endless.  core, bounds: as in
-    :class:`emulator.machine.result.Options`.  uncut: keep all digits of the numbers that pass from one program to the
-    next.  measures: the names of the measures to compute (:mod:`modern.study.measures`).
+    :class:`emulator.machine.result.Options`.  uncut: True to keep all digits of the numbers that pass from one program
+    to the next.  measures: the names of the measures to compute (:mod:`modern.study.measures`).
     """
 
     name: str
@@ -98,10 +98,10 @@ Route = Programs | Port
 class Cell:
     """Samples of one kind, from one family with fixed parameters.  Each sample goes through all routes of the cell.
 
-    key: the parameters that tables show, in order; it is unique in a plan.  family: a name in
+    key: the parameters that tables show, in order.  A key is unique in a plan.  family: a name in
     :data:`modern.study.families.FAMILIES`, or ``module:function``.  parameters: the keyword arguments of the family.
     reference: the route whose order of vertices and planes the other routes are compared with (default: the first).
-    chunk: the number of samples in a chunk; rows do not depend on it.
+    chunk: the number of samples in a chunk.  Rows do not depend on this number.
     """
 
     key: Mapping[str, Value]
@@ -145,7 +145,7 @@ def named(kind: str, name: str, known: Mapping[str, F]) -> F:
 
 @contextmanager
 def user_code(where: str, module: str) -> Iterator[None]:
-    """Turn an exception of a user's module into a PlanError with file and line; raise EmulatorErrors unchanged."""
+    """Turn an exception of a user's module into a PlanError with file and line.  Raise EmulatorErrors unchanged."""
     try:
         yield
     except EmulatorError:
@@ -179,7 +179,10 @@ class Chunk:
 
     @property
     def name(self) -> str:
-        """Return the name of the chunk's file; sorted by name, files are in the order of cells and samples."""
+        """Return the name of the chunk's file.
+
+        If the files are sorted by name, they are in the order of cells and samples.
+        """
         return f"{self.cell:04d}-{self.start:09d}.jsonl"
 
 
@@ -229,7 +232,7 @@ class Plan:
 
 
 def document(route: Route) -> dict[str, object]:
-    """Return a route as JSON data with its kind; ``uncut`` is included only if it is true."""
+    """Return a route as JSON data with its kind.  ``uncut`` is included only if it is true."""
     data = {"kind": "programs" if isinstance(route, Programs) else "port", **asdict(route)}
     if not data.get("uncut"):
         data.pop("uncut", None)

@@ -206,7 +206,7 @@ def _marks(axes: Any, chart: Chart, turned: bool = False, named: bool = True) ->
 
 
 def _name_lines(axes: Any, chart: Lines) -> None:
-    """Write the name of each series to the right of its last point; names that would overlap are moved apart."""
+    """Write the name of each series to the right of its last point.  Names that would overlap are moved apart."""
     if len(chart.series) < 2:
         return
     to_axes = axes.transData + axes.transAxes.inverted()
@@ -295,7 +295,10 @@ def _range(numbers: list[float], logarithmic: bool, margin: float = 0.0) -> tupl
 def _numbers(
     axis: Any, limits: tuple[float, float], logarithmic: bool, powers: bool, percent: bool, only_integers: bool
 ) -> None:
-    """Set the tick labels of an axis; those of a logarithmic axis are 1, 2, 5, 10, 20 and so on, or powers of ten."""
+    """Set the tick labels of an axis.
+
+    The labels of a logarithmic axis are 1, 2, 5, 10, 20 and so on, or only powers of ten if the axis is very long.
+    """
     from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 
     if logarithmic:

@@ -23,7 +23,7 @@ INTERVALS = ("The numbers in parentheses are exact 95 % intervals of proportions
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """A table with notes printed below. ``name`` is the name of its file; the main table is called ``table``."""
+    """A table with notes printed below. ``name`` is the name of its file.  The main table is called ``table``."""
 
     name: str
     title: str
@@ -65,7 +65,10 @@ def row(*cells: object) -> tuple[str, ...]:
 
 
 def with_interval(estimate: Interval, digits: int = 2) -> str:
-    """Format an estimate and its interval: ``1.43 (1.38 to 1.48)``; the estimate alone if the interval is infinite."""
+    """Format an estimate and its interval: ``1.43 (1.38 to 1.48)``.
+
+    If the interval is infinite, format the estimate alone.
+    """
     if isinf(estimate.high):
         return f"{estimate.value:.{digits}f}"
     return f"{estimate.value:.{digits}f} ({estimate.low:.{digits}f} to {estimate.high:.{digits}f})"
@@ -101,12 +104,15 @@ def joined(text: str) -> str:
 
 
 def share_of(hits: int, of: int) -> str:
-    """Format a count, its total and the proportion: ``3 of 40, 7.5 (2.6 to 19.9) %``; ``0 of 0`` if the total is 0."""
+    """Format a count, its total and the proportion: ``3 of 40, 7.5 (2.6 to 19.9) %``.
+
+    If the total is 0, return ``0 of 0``.
+    """
     return f"{hits:,} of {of:,}" + (f", {percent(exact(hits, of))}" if of else "")
 
 
 def listed(items: Iterable[object]) -> str:
-    """Return the items joined to a text, ``a; b; c``, or ``none`` if there are no items."""
+    """Return the items as one text, such as ``a; b; c``.  If there are no items, the text is ``none``."""
     return "; ".join(map(str, items)) or "none"
 
 
@@ -145,8 +151,8 @@ class Mark:
 class Chart:
     """A chart, drawn as :class:`Bars` or :class:`Lines`.
 
-    name: the name of its files without the ending.  x, y: the labels of the axes, with units.  percent: the values are
-    proportions and are shown in percent.  marks: reference lines.
+    name: the name of its files without the ending.  x, y: the labels of the axes, with units.  percent: True if the
+    values are proportions, which are shown in percent.  marks: reference lines.
     """
 
     name: str

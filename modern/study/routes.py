@@ -24,7 +24,7 @@ from modern.thesis.job import HullRun, Load, run_hull
 
 
 def carry_out(route: Route, samples: Sequence[Sample], runs: Runs) -> list[Answer]:
-    """Compute the hull of each sample by the route; ``runs`` keeps the runs that several routes have in common."""
+    """Compute the hull of each sample by the route.  ``runs`` keeps the runs that several routes have in common."""
     if isinstance(route, Programs):
         return _programs(route, samples, runs)
     return [_port(route, sample) for sample in samples]

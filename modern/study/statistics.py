@@ -1,13 +1,13 @@
 """Compute confidence intervals: exact intervals for proportions and counts, and Student's intervals for other means.
 
 A proportion, or a count out of a known total, gets the exact interval of Clopper and Pearson.  Its coverage is at least
-the level (.95 by default) for every true proportion, and the interval never extends below 0 or above the total.  Its
+the level (.95 by default) for every true proportion, and the interval never extends below 0 or above the total.  This
 coverage also holds if samples of several kinds, each with a different proportion, are counted together, because the
 count then varies less (Hoeffding).
 
-Student's interval assumes that means are normally distributed.  It is used for quantities that are not counts, such as
-minutes.  It is truncated at limits of the quantity (no time is below 0), which does not lower its coverage.  Both tails
-of each interval are equally probable.
+Student's interval assumes that means are normally distributed.  This interval is used for quantities that are not
+counts, such as minutes.  The interval is truncated at limits of the quantity (no time is below 0), which does not lower
+its coverage.  Both tails of each interval are equally probable.
 
 References
 ----------

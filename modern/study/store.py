@@ -92,7 +92,7 @@ class Store:
         return ((chunk, chunk.name in present) for chunk in self.plan.chunks())
 
     def add(self, chunk: Chunk, text: str) -> None:
-        """Store the rows of a chunk.  Raise StudyFileError if they cannot be written; then nothing is stored."""
+        """Store the rows of a chunk.  If the rows cannot be written, store nothing and raise StudyFileError."""
         put(self.folder / ROWS / chunk.name, b"".join(map(_with_checksum, text.encode("ascii").splitlines())))
         enter(self.database, map(json.loads, text.splitlines()))
 

@@ -26,7 +26,7 @@ def cells(plan: Plan, **key: Value) -> tuple[tuple[int, Cell], ...]:
 
 @dataclass(frozen=True, slots=True)
 class Summary:
-    """Counts of outcomes by cell and route; cells are numbered from 0 in the order of the plan."""
+    """Counts of outcomes by cell and route.  Cells are numbered from 0 in the order of the plan."""
 
     counts: Mapping[tuple[int, str], Counter[str]]
 

@@ -2,8 +2,8 @@
 
 docs/how-to/own-study.md describes every key.  A cell uses all routes of the plan unless its key ``routes`` lists some.
 The default key of a cell consists of its family and parameters.  ``family = "mine:points"`` names the function
-``points`` of ``mine.py`` next to the plan or on Python's module path; ``measures = ["mine:spread"]`` names a measure in
-the same way.
+``points`` of ``mine.py`` next to the plan or on Python's module path.  ``measures = ["mine:spread"]`` names a measure
+in the same way.
 """
 
 import re
@@ -66,7 +66,10 @@ class _Section:
             raise PlanError(f"{self._place(key)}: {error}") from error
 
     def _place(self, key: str) -> str:
-        """Return the file, and the line of the key in this section; if the key has no line, that of the section."""
+        """Return the file and the line of the key in this section.
+
+        If the key has no line, return the line of the section.
+        """
         sections, header_line = {"": 0}, 0
         current = ("", 0)
         for line_number, line in enumerate(_masked(self.text).split("\n"), 1):

@@ -56,7 +56,7 @@ class Sections:
 
 
 def sections(cards: Sequence[str]) -> Sections:
-    """Read the cards that the last program of a run punched; cards that do not belong to a hull are ignored."""
+    """Read the cards that the last program of a run punched.  Cards that do not belong to a hull are ignored."""
     rows: dict[str, list[tuple[str, ...]]] = {name: [] for name in SECTIONS}
     satisfied: list[tuple[int, ...]] = []
     section = "vertices"

@@ -45,7 +45,7 @@ class HullRun:
 
     @property
     def typed_refusal(self) -> str:
-        """The message DATA NOT ACCEPTABLE or ERROR IN PROGRAM if a program stopped with it, otherwise empty."""
+        """The message DATA NOT ACCEPTABLE or ERROR IN PROGRAM if a program stopped with it, otherwise an empty text."""
         return next(filter(None, (refusal(step.result) for step in self.steps)), "")
 
     @property
@@ -83,7 +83,7 @@ class Refusals:
 
     @property
     def stopped(self) -> str:
-        """The message that rejected the data set, if no card was punched for the set afterwards, otherwise empty."""
+        """The message that rejected the data set if no card was punched for it afterwards, otherwise an empty text."""
         return self._stopped or self._last
 
 

@@ -1,9 +1,9 @@
 """Explain why a run of the 1963 programs found no hull: the statement that stopped it, and the numbers it tested.
 
-A program types DATA NOT ACCEPTABLE if a point that defines a plane or line does not satisfy it exactly (thesis p. 117;
-statement 126 of program 2, 119 of program 3), and ERROR IN PROGRAM if it reaches a state that should be impossible
-(statements 104, 112, 133).  ``fortran_src/KNOWN-FAULTS.md`` describes the known causes; :attr:`Cause.fault` is the
-number of a fault in that file.
+A program types DATA NOT ACCEPTABLE if a point that defines a plane or line does not satisfy it exactly (thesis p. 117).
+The test is statement 126 of program 2 and statement 119 of program 3.  A program types ERROR IN PROGRAM if it reaches a
+state that should be impossible (statements 104, 112, 133).  ``fortran_src/KNOWN-FAULTS.md`` describes the known causes.
+:attr:`Cause.fault` is the number of a fault in that file.
 """
 
 from collections.abc import Callable
@@ -140,7 +140,10 @@ def _label(step: Step, decision: Line | None) -> int:
 
 
 def _unprojected(place: tuple[str, ...], projection: int) -> tuple[str, ...]:
-    """Return the coordinates x, y, z of a point that program 2 stores as R, S, T; its projection drops T."""
+    """Return the coordinates x, y, z of a point that program 2 stores as R, S, T.
+
+    T is the coordinate that the projection drops.
+    """
     r, s, t = place
     return {1: (t, r, s), 2: (r, t, s)}.get(projection, (r, s, t))
 

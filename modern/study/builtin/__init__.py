@@ -12,7 +12,7 @@ from modern.study.store import Store
 class Study(Protocol):
     """The functions and constants that each module of :mod:`modern.study.builtin` defines.
 
-    TITLE: one line for ``--list``.  SAMPLES: the default of ``--samples``; the docstring of the module says what this
+    TITLE: one line for ``--list``.  SAMPLES: the default of ``--samples``.  The docstring of the module says what this
     number counts.  plan: makes the plan for a number of samples.  report: makes the report from the finished rows.
     """
 

@@ -121,7 +121,10 @@ class _Group:
         return _Group(*(getattr(self, part.name) + getattr(other, part.name) for part in fields(self)))
 
     def best_e(self) -> int:
-        """Return the k for which e = 10**k notices the most wrong decisions; the least k if there are several."""
+        """Return the k for which e = 10**k notices the most wrong decisions.
+
+        If there are several, return the least.
+        """
         return max(POWERS, key=lambda k: self.noticed[e_name(k)])
 
     def share(self, counter: Counter[str], name: str) -> Interval | None:
@@ -150,8 +153,8 @@ def _by_method(figures: Mapping[str, Any]) -> Iterator[tuple[str, int, int, int,
 class _Rows:
     """The numbers that the report shows, counted over runs.
 
-    ``groups`` has the counts of runs and alarms for each cell of the study, and ``places`` those for each statement at
-    which a run took its first wrong decision.
+    ``groups`` has the counts of runs and alarms for each cell of the study, and ``places`` has those for each statement
+    at which a run took its first wrong decision.
     """
 
     groups: dict[int, _Group] = field(default_factory=dict)

@@ -273,10 +273,11 @@ def _same_as_port(store: Store) -> tuple[int, int]:
 
 
 def _wrong_outside(plan: Plan, rows: _Rows, store: Store, below: bool) -> tuple[int, int]:
-    """Return the number of sets with a wrong hull at a too small (or, unless ``below``, too large) e, and of all sets.
+    """Return the number of sets with a wrong hull at an e that is too small or too large, and the number of all sets.
 
-    An e is too small (too large) if it is below (above) every e with which no set of the cell fails.  A cell counts
-    only if such an e without failures exists.
+    If ``below`` is true, only each e that is too small counts, otherwise only each e that is too large.  An e is too
+    small (too large) if it is below (above) every e with which no set of the cell fails.  A cell counts only if such an
+    e without failures exists.
     """
     wrong = of = 0
     for number, cell in enumerate(plan.cells):

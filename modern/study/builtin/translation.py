@@ -4,7 +4,7 @@ The thesis (p. 118-119) leaves open whether the translation is worthwhile.  With
 equation's constant term shows which side of the plane is the inside, and C need not be substituted.  But all points
 must be moved, and later moved back.  Time is measured on runs of the programs without rounding, in which no set is
 rejected.  Digits are varied in the port.  ``samples`` is the number of timed sets of each kind and N.  Each kind whose
-digits are varied has four times as many sets.
+digits are varied has 4 x ``samples`` sets.
 """
 
 import json
@@ -143,7 +143,7 @@ class _Pair:
     moved: Mapping[str, float]
 
     def saved(self, part: str) -> float:
-        """Return the share of a figure that moving the origin saves; it is negative if moving costs more."""
+        """Return the share of a figure that moving the origin saves.  The share is negative if moving costs more."""
         return (self.plain[part] - self.moved[part]) / self.plain[part] if self.plain[part] else 0.0
 
     @property

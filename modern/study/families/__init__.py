@@ -1,8 +1,9 @@
 """Families of point sets, from which the samples of a study are drawn.
 
-A family is a function ``family(draw, **parameters) -> Drawn``.  It returns distinct points as decimal text of at most
-eight significant digits, which a card holds exactly.  It draws integers only, so that a seed gives the same points on
-every machine.  :data:`FAMILIES` names the built-in families; ``module:function`` names a user-defined one.
+A family is a function ``family(draw, **parameters) -> Drawn``.  The function returns distinct points as decimal text of
+at most eight significant digits, which a card holds exactly.  The function draws integers only, so that a seed gives
+the same points on every machine.  :data:`FAMILIES` names the built-in families.  ``module:function`` names a
+user-defined family.
 
 To add a family:
 
@@ -51,7 +52,10 @@ def family_of(name: str) -> Family:
 
 
 def check_keywords(name: str, parameters: Mapping[str, object]) -> None:
-    """Raise PlanError if a family does not accept these parameters; the message names those that it accepts."""
+    """Raise PlanError if a family does not accept these parameters.
+
+    The message names the parameters that the family accepts.
+    """
     signature = inspect.signature(family_of(name))
     try:
         signature.bind(None, **_keywords(parameters))

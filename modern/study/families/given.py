@@ -40,7 +40,7 @@ def published(draw: Draw, sets: Sequence[str] = (), shuffle: bool = False) -> Dr
 
 
 def points(draw: Draw, points: Sequence[Sequence[str]], n: Count = 0, shuffle: bool = False, name: str = "") -> Drawn:
-    """The points listed in a plan, or ``n`` of them drawn at random; ``shuffle`` changes their order at random."""
+    """The points listed in a plan, or ``n`` of them drawn at random.  If ``shuffle`` is true, their order is random."""
     in_plan = [(str(x), str(y), str(z)) for x, y, z in points]
     if n:
         count = draw.count(n)

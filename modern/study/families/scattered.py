@@ -1,6 +1,6 @@
 """Draw points in a box, in a ball, on a sphere or on a cube, and draw prisms, pyramids and nearly flat sets.
 
-Only integers are drawn; a decimal is an integer times a power of ten.
+Only integers are drawn.  A decimal is an integer times a power of ten.
 """
 
 from math import isqrt
@@ -32,9 +32,9 @@ def box(draw: Draw, most: int, n: Count, centre: int = 0) -> Drawn:
 def decimals(draw: Draw, digits: int, n: Count, exponent: Count = (0, 1)) -> Drawn:
     """Points whose coordinates are decimals of exactly ``digits`` digits: .12345 times a power of ten, of either sign.
 
-    exponent: the exponent of the power of ten, or the least and the greatest exponent, between which one is drawn for
-    each coordinate.  Coordinates with different exponents have digits in different decimal places, so their difference
-    has more digits.
+    exponent: the exponent of the power of ten, or a pair of the least and the greatest exponent.  For a pair, the
+    exponent of each coordinate is drawn from this range.  Coordinates with different exponents have digits in different
+    decimal places, so their difference has more digits.
     """
     low, high = whole_range(exponent, "exponent")
     if not -20 <= low <= high <= 20:

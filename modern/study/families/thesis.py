@@ -44,7 +44,7 @@ def thesis(
 
     kinds: a weight for each kind that may be chosen.  n: the number of points, for kinds without a fixed number.
     decimals: how many of 1,000 coordinates of a data sheet are decimals.  form: ``alone`` replaces an integer by the
-    decimal, as printed; ``added`` adds the decimal to the integer (12.0146).
+    decimal, as printed, and ``added`` adds the decimal to the integer (12.0146).
     """
     weights = dict.fromkeys(KINDS, 1) if kinds is None else dict(kinds)
     unknown = [kind for kind in weights if kind not in (*KINDS, SHEET)]
