@@ -46,7 +46,7 @@ def test_figures_agree_with_other_reports(values: dict[str, str]) -> None:
     readme = (ROOT / "fortran_src" / "README.md").read_text(encoding="utf-8")
     assert f"{values['listings.statements']} statements" in readme
     assert f"The witness has {values['listings.characters']} characters" in readme
-    assert f"values from -e to +e count as zero; {values['listings.rows-epsilon']} rows" in readme
+    assert f"values from -e to +e count as zero ({values['listings.rows-epsilon']} rows)" in readme
     assert values["statements.table"].splitlines()[-1].startswith(f"| all | {values['statements.all.count']} |")
     assert values["examples.run-exact"] == values["examples.run-results"]
     assert (values["seventy.sets"], values["capacity.listed"]) == ("140,000", "98")
