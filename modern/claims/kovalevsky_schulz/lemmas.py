@@ -91,10 +91,7 @@ def _is_general(points: tuple[Point, ...]) -> bool:
 
 
 NO_FOUR_COPLANAR: Generator[tuple[Point, ...]] = Generator(
-    f"{SETS[3].name}, and a point outside their hull, no four of them coplanar",
-    14,
-    _draw_with_outside,
-    _is_general,
+    f"{SETS[3].name}, and a point outside their hull, no four of them coplanar", 14, _draw_with_outside, _is_general
 )
 
 

@@ -13,6 +13,9 @@ from modern.claims.nakamae_nishita.tables import overlap
 from modern.claims.sampled_sets import CASES, SETS, Point, sampled_sets
 from modern.drawing.visible import CONTOUR, INNER
 from modern.exact_hull import ExactHull
+from modern.geometry.mesh import sides
+from modern.geometry.vectors import dot
+from modern.papers.nakamae_nishita.crossings import ENCLOSED
 from modern.papers.nakamae_nishita.hidden import Drawing, Piece, draw
 from modern.papers.nakamae_nishita.nearness import BY_CROSSING, BY_FACE
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron, checked
@@ -59,10 +62,7 @@ def _is_nested(boxes: tuple[Box, ...]) -> bool:
 
 
 NESTED: Generator[tuple[Box, ...]] = Generator(
-    "boxes with sides from 6 to 9, an edge of which is partly behind a smaller box",
-    61,
-    _draw_nested,
-    _is_nested,
+    "boxes with sides from 6 to 9, an edge of which is partly behind a smaller box", 61, _draw_nested, _is_nested
 )
 
 
@@ -225,3 +225,54 @@ def _visible_lines(drawing: Drawing) -> list[list[tuple[Fraction, Fraction]]]:
     """Return the coordinates of both ends of each visible piece, as one pair for each axis."""
     ends = ((point_of(drawing, p, p.first), point_of(drawing, p, p.last)) for p in drawing.pieces if p.visible)
     return [[*zip(start, end, strict=True)] for start, end in ends]
+
+
+def _draw_view(random: Random) -> tuple[tuple[Point, ...], Point]:
+    (x, y, z), points = (random.randint(-3, 3) for _ in range(3)), SETS[3].draw(random)
+    return points, (x, y, z)
+
+
+VIEWS: Generator[tuple[tuple[Point, ...], Point]] = Generator(
+    f"hulls of {SETS[3].name}, seen from directions with components from -3 to 3",
+    20,
+    _draw_view,
+    lambda view: any(view[1]) and exact_hull(view[0]).dimension == len("xyz"),
+)
+
+
+@claim("nakamae-nishita.20", full=400)
+def faces_and_edges(cases: int = 4) -> Check:
+    directions: list[Point] = [(x, y, z) for x, y, z in product((-1, 0, 1), repeat=3) if any((x, y, z))]
+    # Some faces of the cuboid are edge-on if a component of the direction of view is 0.
+    cuboid_: tuple[Point, ...] = tuple((x, y, z) for x in (0, 2) for y in (0, 3) for z in (0, 4))
+    views = [*VIEWS.cases(cases), *((cuboid_, way) for way in directions)]
+    message = "edges of two front faces are inner edges, and edges of one front face form the contour"
+    message += f", also for a cuboid seen from {len(directions)} directions"
+    return searched(VIEWS, cases, [_is_classified(*view) for view in views], message)
+
+
+def _is_classified(points: tuple[Point, ...], way: Point) -> bool:
+    judge = exact_hull(points)
+    (solid,) = draw([polyhedron_of(points, judge)], parallel(way)).solids
+    front = [{*map(judge.vertices.index, f.polygon)} for f in judge.facets if dot(f.plane[:3], way) > 0]
+    kinds = {frozenset((edge.start, edge.end)): edge.kind for edge in solid.edges}
+    counts = {ends: sum(ends <= face for face in front) for ends in kinds}
+    right = all((kinds[e] == INNER, kinds[e] == CONTOUR) == (n == 2, n == 1) for e, n in counts.items())
+    ring = {frozenset(ends) for ends in sides(solid.contour)}
+    return right and len(kinds) == len(judge.edges()) and ring == {e for e, kind in kinds.items() if kind == CONTOUR}
+
+
+@claim("nakamae-nishita.61", full=300)
+def nearer_contour_inside(cases: int = 3) -> Check:
+    # A frustum is seen from above, with a box in front of its top.
+    squares = [((a, a, z), (b, a, z), (b, b, z), (a, b, z)) for z, a, b in ((0, 0, 8), (2, 3, 5))]
+    corners = tuple((Fraction(x), Fraction(y), Fraction(z)) for square in squares for x, y, z in square)
+    walls = [(k, k + 4, (k + 1) % 4 + 4, (k + 1) % 4) for k in range(4)]
+    frustum = checked(Polyhedron("frustum", corners, ((0, 1, 2, 3), (7, 6, 5, 4), *walls)))
+    drawing = draw([frustum, *polyhedra((((2, 2, 4), (6, 6, 5)),))], parallel((0, 0, 1)), hidden=True)
+    whole = sum(p == ENCLOSED for edge in drawing.passages if edge.solid == 0 for _, p in edge.behind)
+    # A point of the frustum is hidden if its image is inside the square contour of the box, from 2 to 6 in x and y.
+    points = [(piece.visible, at) for piece, at in samples(drawing) if piece.solid == 0]
+    correct = all(visible != (max(abs(x - 4), abs(y - 4)) < 2) for visible, (x, y, _) in points)
+    case = f"the top of a frustum behind a box: its {whole} sides are hidden without meeting the contour of the box"
+    return pieces_against_rays(cases, NESTED).unless(correct and whole, case)

@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import cache
 from itertools import combinations, product
+from operator import eq
 from random import Random
 
 from modern.claims import algebra
@@ -295,3 +296,33 @@ def intersection_counts(cases: int = CASES) -> Check:
     check = searched(POLYGONS, 2 * cases, [counts == {0, 1, 2}], "segments meet a contour in 0, 1 or 2 points")
     case = f"segments along a side ({along}), and those through corners that (3) counts twice ({over_two})"
     return check.unless(along and over_two, case)
+
+
+@claim("nakamae-nishita.66", full=25)
+def overlap_by_neighbours(cases: int = CASES) -> Check:
+    overlaps, beside = [], []
+    for v, w in pairs(cases):
+        pl, _ = tables_of(v, w)
+        for i, j in product(range(len(v)), range(len(w))):
+            row, next_row = pl[j], pl[(j + 1) % len(w)]
+            if row[i] == next_row[i] == 0:
+                axis = 0 if v[i][0] != v[(i + 1) % len(v)][0] else 1
+                spans = [sorted((ring[k][axis], ring[(k + 1) % len(ring)][axis])) for ring, k in ((v, i), (w, j))]
+                overlaps.append(max(first for first, _ in spans) < min(last for _, last in spans))
+                beside.append(all(row[k] == 1 or next_row[k] == 1 for k in (i - 1, (i + 1) % len(v))))
+    message = f"adjacent columns tell that {sum(overlaps)} of {len(overlaps)} pairs of collinear sides overlap"
+    return searched(POLYGONS, 2 * cases, [*map(eq, overlaps, beside), 0 < sum(overlaps) < len(overlaps)], message)
+
+
+@claim("nakamae-nishita.64", full=25)
+def segments_within(cases: int = CASES) -> Check:
+    checks, partly_inside = [], 0
+    for v, w in pairs(cases):
+        for (a, b), (p, q) in product(sides(v), combinations(range(len(w)), 2)):
+            if 1 < q - p < len(w) - 1 and crosses(a, b, w[p], w[q]):
+                values_at_w = values(lines_of(w), [(*a, 0, 1), (*b, 0, 1)])
+                checks.append(values_at_w is not None and clipped(values_at_w, 0, 1) != CLEAR)
+                partly_inside += not (inside(a, w) and inside(b, w))
+    message = f"in {len(checks)} crossings of a side of V with a diagonal of V', a part of the side is inside"
+    check = searched(POLYGONS, 2 * cases, checks, message)
+    return check.unless(partly_inside, f"the whole segment, which is not inside in {partly_inside} crossings")

@@ -1,83 +1,25 @@
-"""Checks of Nakamae and Nishita on visibility: hidden edges, indices of intersections, nearer contours, and counts."""
+"""Checks of Nakamae and Nishita on visibility: hidden edges, indices of intersections, nearer polyhedra, and counts."""
 
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
-from itertools import combinations, groupby, pairwise, permutations, product
-from operator import eq
-from random import Random
+from itertools import combinations, groupby, pairwise, permutations
 
 from modern.claims import algebra
-from modern.claims.evidence import Check, Generator, claim, exhibited, proved, refuted, searched, slip
-from modern.claims.hulls import exact_hull
+from modern.claims.evidence import Check, claim, exhibited, proved, refuted, searched, slip
 from modern.claims.invariants import counts_in_table_1
-from modern.claims.nakamae_nishita.drawings import (
-    NESTED,
-    order_on_lines_of_sight,
-    pieces_against_rays,
-    polyhedra,
-    polyhedron_of,
-    samples,
-)
-from modern.claims.nakamae_nishita.tables import (
-    POLYGONS,
-    SQUARE,
-    Place,
-    between,
-    crosses,
-    inside,
-    lines_of,
-    pairs,
-    tables_of,
-)
-from modern.claims.sampled_sets import CASES, SETS, Point, counterexample, counterexample_points
+from modern.claims.nakamae_nishita.drawings import order_on_lines_of_sight, pieces_against_rays, polyhedra
+from modern.claims.nakamae_nishita.tables import POLYGONS, SQUARE, Place, between, crosses, lines_of
+from modern.claims.sampled_sets import counterexample, counterexample_points
 from modern.drawing.visible import CONTOUR, INNER, line_through, sign, value
 from modern.geometry.mesh import sides
 from modern.geometry.vectors import dot, minus, plus
 from modern.papers.nakamae_nishita.contours import values
-from modern.papers.nakamae_nishita.crossings import CLEAR, ENCLOSED, as_printed, clipped
+from modern.papers.nakamae_nishita.crossings import CLEAR, as_printed, clipped
 from modern.papers.nakamae_nishita.hidden import Drawing, draw
 from modern.papers.nakamae_nishita.nearness import BY_CROSSING
-from modern.papers.nakamae_nishita.polyhedron import Polyhedron, checked
 from modern.papers.nakamae_nishita.projection import parallel
 from modern.papers.nakamae_nishita.scenes import parse
-
-
-def _draw_view(random: Random) -> tuple[tuple[Point, ...], Point]:
-    (x, y, z), points = (random.randint(-3, 3) for _ in range(3)), SETS[3].draw(random)
-    return points, (x, y, z)
-
-
-VIEWS: Generator[tuple[tuple[Point, ...], Point]] = Generator(
-    f"hulls of {SETS[3].name}, seen from directions with components from -3 to 3",
-    20,
-    _draw_view,
-    lambda view: any(view[1]) and exact_hull(view[0]).dimension == len("xyz"),
-)
-
-
-@claim("nakamae-nishita.20", full=400)
-def faces_and_edges(cases: int = 4) -> Check:
-    directions: list[Point] = [(x, y, z) for x, y, z in product((-1, 0, 1), repeat=3) if any((x, y, z))]
-    views = [*VIEWS.cases(cases), *((_CORNERS, way) for way in directions)]
-    message = "edges of two front faces are inner edges, and edges of one front face form the contour"
-    message += f", also for a cuboid seen from {len(directions)} directions"
-    return searched(VIEWS, cases, [_is_classified(*view) for view in views], message)
-
-
-# A cuboid, some of whose faces are edge-on if a component of the direction of view is 0.
-_CORNERS: tuple[Point, ...] = tuple((x, y, z) for x in (0, 2) for y in (0, 3) for z in (0, 4))
-
-
-def _is_classified(points: tuple[Point, ...], way: Point) -> bool:
-    judge = exact_hull(points)
-    (solid,) = draw([polyhedron_of(points, judge)], parallel(way)).solids
-    front = [{*map(judge.vertices.index, f.polygon)} for f in judge.facets if dot(f.plane[:3], way) > 0]
-    kinds = {frozenset((edge.start, edge.end)): edge.kind for edge in solid.edges}
-    counts = {ends: sum(ends <= face for face in front) for ends in kinds}
-    right = all((kinds[e] == INNER, kinds[e] == CONTOUR) == (n == 2, n == 1) for e, n in counts.items())
-    ring = {frozenset(ends) for ends in sides(solid.contour)}
-    return right and len(kinds) == len(judge.edges()) and ring == {e for e, kind in kinds.items() if kind == CONTOUR}
 
 
 @claim("nakamae-nishita.16", full=600)
@@ -221,36 +163,6 @@ def edges_wholly_behind() -> Check:
     return refuted(scenes[0].relations[0].by == BY_CROSSING and wrong & inner, message)
 
 
-@claim("nakamae-nishita.66", full=25)
-def overlap_by_neighbours(cases: int = CASES) -> Check:
-    overlaps, beside = [], []
-    for v, w in pairs(cases):
-        pl, _ = tables_of(v, w)
-        for i, j in product(range(len(v)), range(len(w))):
-            row, next_row = pl[j], pl[(j + 1) % len(w)]
-            if row[i] == next_row[i] == 0:
-                axis = 0 if v[i][0] != v[(i + 1) % len(v)][0] else 1
-                spans = [sorted((ring[k][axis], ring[(k + 1) % len(ring)][axis])) for ring, k in ((v, i), (w, j))]
-                overlaps.append(max(first for first, _ in spans) < min(last for _, last in spans))
-                beside.append(all(row[k] == 1 or next_row[k] == 1 for k in (i - 1, (i + 1) % len(v))))
-    message = f"adjacent columns tell that {sum(overlaps)} of {len(overlaps)} pairs of collinear sides overlap"
-    return searched(POLYGONS, 2 * cases, [*map(eq, overlaps, beside), 0 < sum(overlaps) < len(overlaps)], message)
-
-
-@claim("nakamae-nishita.64", full=25)
-def segments_within(cases: int = CASES) -> Check:
-    checks, partly_inside = [], 0
-    for v, w in pairs(cases):
-        for (a, b), (p, q) in product(sides(v), combinations(range(len(w)), 2)):
-            if 1 < q - p < len(w) - 1 and crosses(a, b, w[p], w[q]):
-                values_at_w = values(lines_of(w), [(*a, 0, 1), (*b, 0, 1)])
-                checks.append(values_at_w is not None and clipped(values_at_w, 0, 1) != CLEAR)
-                partly_inside += not (inside(a, w) and inside(b, w))
-    message = f"in {len(checks)} crossings of a side of V with a diagonal of V', a part of the side is inside"
-    check = searched(POLYGONS, 2 * cases, checks, message)
-    return check.unless(partly_inside, f"the whole segment, which is not inside in {partly_inside} crossings")
-
-
 @claim("nakamae-nishita.65")
 def table_by_formula_4() -> Check:
     (eye, *contour), ends = (points := counterexample_points("table_by_4.csv"))[:-2], points[-2:]
@@ -260,29 +172,6 @@ def table_by_formula_4() -> Check:
     goes_in = -1 in by_1[0] and -1 not in by_1[1]
     message = "by (4) every element is -1 as if nothing intersected; by (1) the edge enters"
     return slip(by_4 != {-1}, goes_in, "the tables of section 3.2, by the sign of (1)", message)
-
-
-@claim("nakamae-nishita.61", full=300)
-def nearer_contour_inside(cases: int = 3) -> Check:
-    # A frustum is seen from above, with a box in front of its top.
-    corners = [(x, y, z) for z, low, high in ((0, 0, 8), (2, 3, 5)) for x, y in _ring(low, high)]
-    walls = [(k, k + 4, (k + 1) % 4 + 4, (k + 1) % 4) for k in range(4)]
-    frustum = Polyhedron(
-        "frustum",
-        tuple((Fraction(x), Fraction(y), Fraction(z)) for x, y, z in corners),
-        ((0, 1, 2, 3), (7, 6, 5, 4), *walls),
-    )
-    drawing = draw([checked(frustum), *polyhedra((((2, 2, 4), (6, 6, 5)),))], parallel((0, 0, 1)), hidden=True)
-    whole = sum(p == ENCLOSED for edge in drawing.passages if edge.solid == 0 for _, p in edge.behind)
-    # A point of the frustum is hidden if its image is inside the square contour of the box, from 2 to 6 in x and y.
-    points = [(piece.visible, at) for piece, at in samples(drawing) if piece.solid == 0]
-    correct = all(visible != (max(abs(x - 4), abs(y - 4)) < 2) for visible, (x, y, _) in points)
-    case = f"the top of a frustum behind a box: its {whole} sides are hidden without meeting the contour of the box"
-    return pieces_against_rays(cases, NESTED).unless(correct and whole, case)
-
-
-def _ring(low: int, high: int) -> tuple[tuple[int, int], ...]:
-    return (low, low), (high, low), (high, high), (low, high)
 
 
 @claim("nakamae-nishita.56")
