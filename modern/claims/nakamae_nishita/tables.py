@@ -19,7 +19,7 @@ from modern.claims.sampled_sets import CASES, SETS, Point, sampled_sets
 from modern.drawing.visible import line_through, sign, value
 from modern.geometry.mesh import sides
 from modern.geometry.vectors import dot
-from modern.papers.nakamae_nishita.contours import Tables, values
+from modern.papers.nakamae_nishita.contours import Tables, tables, values
 from modern.papers.nakamae_nishita.crossings import CLEAR, clipped
 from modern.papers.nakamae_nishita.solids import height, plane_through
 
@@ -38,18 +38,16 @@ def flat(places: tuple[Place, ...]) -> list[tuple[int, int, int]]:
 
 
 def lines_of(places: tuple[Place, ...]) -> list[tuple[int, int, int]]:
-    corners = flat(places)
-    return [line_through(a, b) for a, b in sides(corners)]
+    return [line_through(a, b) for a, b in sides(flat(places))]
 
 
-def tables_of(v: tuple[Place, ...], w: tuple[Place, ...]) -> tuple[list[list[int]], list[list[int]]]:
+def tables_of(v: tuple[Place, ...], w: tuple[Place, ...]) -> Tables:
     """Return the tables PL (vertices of V' against lines of V) and LP (lines of V' against vertices of V).
 
     Rows belong to V' and columns to V.  The entries are computed by formula (2), also for contours that do not overlap.
     """
-    pl = [[sign(value(line, p)) for line in lines_of(v)] for p in flat(w)]
-    lp = [[sign(value(line, p)) for p in flat(v)] for line in lines_of(w)]
-    return pl, lp
+    of_v, of_w = ([[value(line, p) for p in flat(b)] for line in lines_of(a)] for a, b in ((v, w), (w, v)))
+    return tables(of_v, of_w)
 
 
 def _draw_polygon(random: Random) -> tuple[Place, ...]:
@@ -158,7 +156,7 @@ def formula_3(cases: int = CASES) -> Check:
 
 @claim("nakamae-nishita.29", "nakamae-nishita.33", full=25)
 def formula_3_in_line(cases: int = CASES) -> Check:
-    d = tables_by_2(SQUARE, ((2, 2), (2, 4), (6, 4), (6, 2))).crossing_number(1, 1)
+    d = tables_of(SQUARE, ((2, 2), (2, 4), (6, 4), (6, 2))).crossing_number(1, 1)
     check = formula_3(cases)
     return check.unless(d == 0, "the sides (0, 4) (4, 4) and (2, 4) (6, 4), which overlap, and d is 0")
 
@@ -198,20 +196,15 @@ def numbers_of_meetings(v: tuple[Place, ...], w: tuple[Place, ...]) -> list[tupl
     The first is computed by formula (3), and the second is the value that section 3.2 states for the position of the
     sides.
     """
-    tables, meetings = tables_by_2(v, w), []
+    d_of, meetings = tables_of(v, w).crossing_number, []
     for (i, (a, b)), (j, (c, d)) in product(enumerate(sides(v)), enumerate(sides(w))):
         # Section 3.2: -4 for a crossing, -2 for a vertex on a segment, -1 for a common vertex, else 0.
         touching = [p for p in {a, b} if between(c, d, p)] + [p for p in {c, d} if between(a, b, p)]
         in_line = side(a, b, c) == side(a, b, d) == 0
         same = {a, b} & {c, d}
         expected = 0 if in_line else -1 if same else -2 if touching else -4 if crosses(a, b, c, d) else 0
-        meetings.append((tables.crossing_number(i, j), expected))
+        meetings.append((d_of(i, j), expected))
     return meetings
-
-
-def tables_by_2(v: tuple[Place, ...], w: tuple[Place, ...]) -> Tables:
-    pl, lp = tables_of(v, w)
-    return Tables(tuple(map(tuple, pl)), tuple(map(tuple, lp)))
 
 
 def between(p: Place, q: Place, r: Place) -> bool:
@@ -236,10 +229,9 @@ def crosses(a: Place, b: Place, c: Place, d: Place) -> bool:
 def table_properties(number: str, cases: int = CASES) -> Check:
     checks, premises, touching = [], 0, False
     for v, w in pairs(cases):
-        pl, lp = tables_of(v, w)
-        d = tables_by_2(v, w).crossing_number
-        met = [[d(i, j) for j in range(len(w))] for i in range(len(v))]
-        of_pl, of_lp = (v, w, [*zip(*pl, strict=True)], met), (w, v, lp, [*zip(*met, strict=True)])
+        of_both = tables_of(v, w)
+        met = [[of_both.crossing_number(i, j) for j in range(len(w))] for i in range(len(v))]
+        of_pl, of_lp = (v, w, [*zip(*of_both.pl, strict=True)], met), (w, v, of_both.lp, [*zip(*met, strict=True)])
         # ``LP`` is about all four properties of the table LP.
         for property_number in "1234" if number == "LP" else number:
             found, touches = _property(property_number, *(of_lp if number == "LP" else of_pl))
@@ -302,7 +294,7 @@ def intersection_counts(cases: int = CASES) -> Check:
 def overlap_by_neighbours(cases: int = CASES) -> Check:
     overlaps, beside = [], []
     for v, w in pairs(cases):
-        pl, _ = tables_of(v, w)
+        pl = tables_of(v, w).pl
         for i, j in product(range(len(v)), range(len(w))):
             row, next_row = pl[j], pl[(j + 1) % len(w)]
             if row[i] == next_row[i] == 0:
