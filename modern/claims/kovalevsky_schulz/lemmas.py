@@ -22,7 +22,7 @@ from modern.claims.sampled_sets import (
 )
 from modern.digital.solids import listed
 from modern.exact_hull import ExactHull
-from modern.geometry.vectors import cross, dot, minus
+from modern.geometry.vectors import cross, dot, minus, plus
 from modern.papers.kovalevsky_schulz import local_corners
 from modern.papers.kovalevsky_schulz.corners import Of
 
@@ -31,18 +31,16 @@ from modern.papers.kovalevsky_schulz.corners import Of
 @claim("kovalevsky-schulz.70", vertices="moved")
 def smaller_polyhedron(vertices: str) -> Check:
     *corners, lower = counterexample_points("shortened.csv")
-    larger, smaller = exact_hull(corners), exact_hull([*corners[:-1], lower])
-    within = [max(plane_value(f.plane, p) for f in larger.facets) for p in (*corners[:-1], lower)]
-    wrong = smaller.vertices == (0, 1, 2, 3) and max(within) == min(within) == 0 and lower not in corners
+    larger, smaller = exact_hull([*corners, lower]), exact_hull([*corners[:-1], lower])
+    wrong = larger.vertices == smaller.vertices == (0, 1, 2, 3) and larger.boundary == (4,)
     message = "all vertices of the smaller tetrahedron are on the boundary of the larger one"
     if vertices == "moved":
-        middles = [[a + b for a, b in zip(p, q, strict=True)] for p, q in combinations(corners, 2)]
-        wrong = wrong and len(exact_hull(middles).vertices) == 6
+        doubled_middles = [plus(p, q) for p, q in combinations(corners, 2)]
         message += f", and {lower} is not a vertex of the larger one; the midpoints of its edges form an octahedron"
-        return refuted(wrong, message)
+        return refuted(wrong and len(exact_hull(doubled_middles).vertices) == 6, message)
     four = [p for p in product((0, 1), repeat=3) if sum(p) % 2 == 0]
-    wrong = wrong and exact_hull(four).dimension == 3
-    return refuted(wrong, f"{message}; four alternate corners of a cube form such a smaller tetrahedron, too")
+    message += "; four alternate corners of a cube form such a smaller tetrahedron, too"
+    return refuted(wrong and exact_hull(four).dimension == 3, message)
 
 
 @claim("kovalevsky-schulz.126", "kovalevsky-schulz.75", full=1_000)
@@ -97,12 +95,8 @@ NO_FOUR_COPLANAR: Generator[tuple[Point, ...]] = Generator(
 
 @claim("yau-srihari.14", full=400)
 def closed_boundary(cases: int = CASES) -> Check:
-    def is_closed(points: tuple[Point, ...]) -> bool:
-        *first, new = points
-        return is_closed_curve(horizon(exact_hull(first), new))
-
     message = "the boundary between the light and the dark faces is one closed curve"
-    return search(NO_FOUR_COPLANAR, is_closed, cases, message)
+    return search(NO_FOUR_COPLANAR, lambda p: is_closed_curve(horizon(exact_hull(p[:-1]), p[-1])), cases, message)
 
 
 @claim("kovalevsky-schulz.73", full=400)

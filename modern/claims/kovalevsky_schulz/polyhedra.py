@@ -3,12 +3,12 @@
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import product
+from itertools import pairwise, product
 
 from modern.claims.evidence import Check, claim, exhibited, search, searched
 from modern.claims.hulls import convex_polyhedron, exact_hull
 from modern.claims.kovalevsky_schulz.voxels import SOLIDS, Voxels
-from modern.claims.sampled_sets import CASES, SETS, Plane, Point, plane_value, sampled_sets
+from modern.claims.sampled_sets import CASES, SETS, Point, plane_value, sampled_sets
 from modern.digital.hull import digital_hull
 from modern.digital.solids import Volume, listed
 from modern.exact_hull import ExactHull
@@ -64,10 +64,8 @@ def either_treatment(cases: int = CASES) -> Check:
             faces = {frozenset(straight.points[k - 1] for k in face.vertices) for face in straight.faces}
             outcomes.append(faces == {frozenset(points[k] for k in f.polygon) for f in judge.facets})
             outcomes.append({*straight.planes()} == {f.plane for f in judge.facets})
-    message = (
-        f"with coplanar faces visible or not, the cell lists of a cubic grid and {cases} sets are the exact hull's"
-    )
-    return searched(SETS[3], cases, outcomes, message)
+    message = "with coplanar faces visible or not, the cell lists of a cubic grid "
+    return searched(SETS[3], cases, outcomes, f"{message}and {cases} sets are the exact hull's")
 
 
 @claim("kovalevsky-schulz.35", full=400)
@@ -85,19 +83,15 @@ def growing_polyhedra(cases: int = CASES) -> Check:
     outcomes = []
     for points, _ in hulls(cases):
         # The first polyhedron is the hull of the points up to the first four that are not coplanar.
-        before: tuple[Point, ...] = ()
-        planes_before: tuple[Plane, ...] = ()
-        for n in range(1 + max(independent(points)), len(points) + 1):
-            cells = polyhedron(points[:n])
-            outcomes.append({*cells.planes()} == {f.plane for f in exact_hull(points[:n]).facets})
-            outcomes += [plane_value(plane, p) <= 0 for plane in cells.planes() for p in (*points[:n], *before)]
-            # The new point is inside the polyhedron before, if there is one, or becomes a vertex.
-            inside = all(plane_value(plane, points[n - 1]) <= 0 for plane in planes_before)
-            outcomes.append(inside or points[n - 1] in cells.points)
-            before, planes_before = cells.points, cells.planes()
+        parts = [points[:n] for n in range(1 + max(independent(points)), len(points) + 1)]
+        outcomes += [{*polyhedron(p).planes()} == {f.plane for f in exact_hull(p).facets} for p in parts]
+        outcomes += [plane_value(plane, p) <= 0 for part in parts for plane in polyhedron(part).planes() for p in part]
+        for (before, cells), new in zip(pairwise(map(polyhedron, parts)), points[len(parts[0]) :], strict=True):
+            outcomes += [plane_value(plane, p) <= 0 for plane in cells.planes() for p in before.points]
+            was_inside = all(plane_value(plane, new) <= 0 for plane in before.planes())
+            outcomes.append(was_inside or new in cells.points)
     message = "every polyhedron is the intersection of half-spaces and contains all points and polyhedra before it; "
-    message += "each new point becomes a vertex or was inside"
-    return searched(SETS[3], cases, outcomes, message)
+    return searched(SETS[3], cases, outcomes, f"{message}each new point becomes a vertex or was inside")
 
 
 @claim("kovalevsky-schulz.50", "yau-srihari.15", full=120)

@@ -4,13 +4,13 @@ The half-balls are those of Table 5. The paper does not define how a half-ball i
 """
 
 from fractions import Fraction
-from itertools import product
+from itertools import chain, product
 
 from modern.claims.evidence import Check, claim, exhausted, exhibited, refuted, searched, slip
 from modern.claims.hulls import exact_hull
-from modern.claims.invariants import HalfBall, half_balls, may_be_convex, numbers_in
+from modern.claims.invariants import HalfBall, corrected_print, half_balls, may_be_convex, numbers_in
 from modern.claims.kovalevsky_schulz.polyhedra import hulls, polyhedron
-from modern.claims.published import PAPERS, printed_lines, results_of
+from modern.claims.published import PAPERS, results_of
 from modern.claims.sampled_sets import CASES, SETS, Point
 from modern.digital.solids import Volume, half_ball, listed
 from modern.geometry.vectors import dot, minus
@@ -18,8 +18,6 @@ from modern.papers.kovalevsky_schulz import CENTRES, INVISIBLE, VERTICES, VISIBL
 from modern.papers.kovalevsky_schulz.cells import CellList, cell_list_size, economical_size, triangulation_size
 from modern.papers.kovalevsky_schulz.hull import RASTER, SHUFFLED, merged, straightened
 from modern.papers.kovalevsky_schulz.results import half_ball_cells
-
-PAPER = next(paper for paper in PAPERS if paper.name == "kovalevsky-schulz")
 
 
 @claim("kovalevsky-schulz.78", full=400)
@@ -31,7 +29,7 @@ def formula_5(cases: int = CASES) -> Check:
 
 @claim("kovalevsky-schulz.91")
 def integers_per_face() -> Check:
-    rows = [result.printed[0].split() for result in results_of(PAPER) if result.id.startswith("table5-")]
+    rows = [result.printed[0].split() for result in results_of(PAPERS[1]) if result.id.startswith("table5-")]
     quotients = [(int(row[6].replace(".", "")), Fraction(100 * int(row[5]), int(row[4]))) for row in rows]
     wrong = [(printed, exact) for printed, exact in quotients if printed != round(exact)]
     rounded_up = [int(exact) < printed == round(exact) for printed, exact in quotients]
@@ -44,7 +42,6 @@ def integers_per_face() -> Check:
 
 @claim("kovalevsky-schulz.100")
 def memory_requirements() -> Check:
-    tables = printed_lines(PAPER)
     fewer, more = [], {}
     # Formula (6) gives the number V of vertices from the number of integers. A hull has 2 V - 4 triangles.
     for row in half_balls():
@@ -52,16 +49,15 @@ def memory_requirements() -> Check:
         fewer.append(row.integers < row.triangle_integers)
         if row.integers > own:
             more[row.diameter] = f"{row.integers} integers against {own} of hull triangles at diameter {row.diameter}"
-    car, triangles = (int(tables[name][0].split()[-1]) for name in ("table4-hull", "table4-triangulation"))
+    printed = corrected_print("kovalevsky-schulz")
+    car, triangles = (numbers_in(printed[name][0])[-1] for name in ("table4-hull", "table4-triangulation"))
     fewer.append(car < triangles)
     # Formula (6) is approximate. The hulls of the half-balls give the exact numbers.
-    hulls_smaller = [
-        economical_size(c) < triangulation_size(2 * len(c.vertices) - 4) for part in _bodies() for c in part
-    ]
+    smaller = [economical_size(c) < triangulation_size(2 * len(c.vertices) - 4) for c in chain(*_bodies())]
     exact = {d: f"{economical_size(half_ball_cells(d))} integers at diameter {d}" for d in more}
     message = f"the cell list is smaller than the triangles of Marching Cubes in {sum(fewer)} of {len(fewer)} cases; "
     message += f"by formula (6), {', '.join(more.values())}; the cell list itself has {', '.join(exact.values())}"
-    return exhibited(all(fewer) and all(hulls_smaller) and {*more} == {10, 18}, message)
+    return exhibited(all(fewer) and all(smaller) and {*more} == {10, 18}, message)
 
 
 def _bodies() -> tuple[list[CellList], list[CellList]]:
@@ -75,11 +71,11 @@ def _size(cells: CellList) -> int:
 
 @claim("kovalevsky-schulz.84")
 def integers_of_table_4() -> Check:
-    faces, vertices, integers = numbers_in(printed_lines(PAPER)["table4-hull"][0])
+    faces, vertices, integers = numbers_in(corrected_print("kovalevsky-schulz")["table4-hull"][0])
     # Euler's formula gives the number of edges, each of which is on two faces.
     edges = vertices + faces - 2
     exact = 3 * vertices + 2 * edges
-    counted = all(economical_size(c) == 3 * len(c.vertices) + 2 * len(c.edges) for bodies in _bodies() for c in bodies)
+    counted = all(economical_size(c) == 3 * len(c.vertices) + 2 * len(c.edges) for c in chain(*_bodies()))
     check = exhibited(cell_list_size(vertices, faces) == integers, f"{integers} is the value of formula (6)")
     case = f"the cell list itself: {vertices} vertices and {faces} faces have {edges} edges and need {exact} integers"
     return check.unless(counted and integers not in (exact, exact + faces), case)
@@ -132,11 +128,8 @@ def diameter_8() -> Check:
     return refuted(not possible and not exact, message)
 
 
-# Twice the coordinates of the centre: on a voxel, between two layers, and between four voxels of a layer.
-_OTHER_CENTRES = (0, 0, 0), (0, 0, 1), (1, 1, 0)
-
-
 def _half_ball(diameter: int, *centre: int) -> Volume:
+    """Return a half-ball; ``centre`` has twice the coordinates of its centre."""
     sides = [range(-diameter // 2, diameter // 2 + 1)] * 2
     around = product(*sides, range(centre[2], diameter // 2 + 1))
     return listed([p for p in around if sum((2 * c - m) ** 2 for c, m in zip(p, centre, strict=True)) <= diameter**2])
@@ -153,7 +146,8 @@ def row_of_table_5(diameter: int) -> Check:
     hull = straightened(cells)
     agrees = (len(cells.faces), _size(cells)) == (row.faces, row.integers) and row.has_quarter_turns()
     message = f"{len(cells.faces)} faces and {len(cells.vertices)} points give {_size(cells)} integers by formula (6)"
-    moved = [voxel_hull(_half_ball(diameter, *o), VERTICES, 6, INVISIBLE).polyhedron.faces for o in _OTHER_CENTRES]
+    centres = (0, 0, 0), (0, 0, 1), (1, 1, 0)
+    moved = [voxel_hull(_half_ball(diameter, *o), VERTICES, 6, INVISIBLE).polyhedron.faces for o in centres]
     numbers = [(len(moved_cells.faces), _size(moved_cells)) for moved_cells in moved]
     case = "half-balls centred on a voxel, between two layers, and between four voxels of a layer, which have "
     case += f"{', '.join(f'{faces} faces and {integers} integers' for faces, integers in numbers)}"
