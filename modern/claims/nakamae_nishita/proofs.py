@@ -1,4 +1,4 @@
-"""Proof of the test for front faces of Nakamae and Nishita; :mod:`modern.claims.algebra` checks the steps."""
+"""Proofs of Nakamae and Nishita on front faces and overlaps; :mod:`modern.claims.algebra` checks the steps."""
 
 from modern.claims.algebra import (
     Proof,
@@ -72,4 +72,23 @@ def three_corners() -> Proof:
         f"{front.argument} If y points up, formula (1) for the three corners is this turn. It is 0 only if the corners "
         "are collinear, which a convex angle excludes, or if the face is seen in its own plane.",
         (*front.steps, Step("formula (1) is the turn", {}, zero(formula_1 - bracket(u, v, w)))),
+    )
+
+
+@proves("nakamae-nishita.66")
+def overlap_by_neighbours() -> Proof:
+    o, p, q, r = (point(name, 2) for name in "opqr")
+    (t,) = variables("t")
+    x = tuple((1 - t) * a + t * b for a, b in zip(p, q, strict=True))
+    return Proof(
+        "a segment on the line of a side overlaps the side if and only if each of the two adjacent columns has a 1 in "
+        "one of its two rows",
+        "Let o, p, q and r be successive corners of a contour, none of them straight, and let x = p + t (q - p) be an "
+        "end of the segment. The values of (1) for x in the columns of o p and q r are t times the value at q, and 1 - "
+        "t times that at p, which are positive. So these columns have a 1 if t > 0 and if t < 1. A segment of the line "
+        "overlaps the side if and only if t > 0 at one of its ends and t < 1 at one of its ends.",
+        (
+            Step("the value for o p is t times that at q", {}, zero(bracket(o, p, x) - t * bracket(o, p, q))),
+            Step("the value for q r is 1 - t times that at p", {}, zero(bracket(q, r, x) - (1 - t) * bracket(q, r, p))),
+        ),
     )

@@ -8,7 +8,6 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import cache
 from itertools import combinations, product
-from operator import eq
 from random import Random
 
 from modern.claims import algebra
@@ -288,22 +287,6 @@ def intersection_counts(cases: int = CASES) -> Check:
     check = searched(POLYGONS, 2 * cases, [counts == {0, 1, 2}], "segments meet a contour in 0, 1 or 2 points")
     case = f"segments along a side ({along}), and those through corners that (3) counts twice ({over_two})"
     return check.unless(along and over_two, case)
-
-
-@claim("nakamae-nishita.66", full=25)
-def overlap_by_neighbours(cases: int = CASES) -> Check:
-    overlaps, beside = [], []
-    for v, w in pairs(cases):
-        pl = tables_of(v, w).pl
-        for i, j in product(range(len(v)), range(len(w))):
-            row, next_row = pl[j], pl[(j + 1) % len(w)]
-            if row[i] == next_row[i] == 0:
-                axis = 0 if v[i][0] != v[(i + 1) % len(v)][0] else 1
-                spans = [sorted((ring[k][axis], ring[(k + 1) % len(ring)][axis])) for ring, k in ((v, i), (w, j))]
-                overlaps.append(max(first for first, _ in spans) < min(last for _, last in spans))
-                beside.append(all(row[k] == 1 or next_row[k] == 1 for k in (i - 1, (i + 1) % len(v))))
-    message = f"adjacent columns tell that {sum(overlaps)} of {len(overlaps)} pairs of collinear sides overlap"
-    return searched(POLYGONS, 2 * cases, [*map(eq, overlaps, beside), 0 < sum(overlaps) < len(overlaps)], message)
 
 
 @claim("nakamae-nishita.64", full=25)

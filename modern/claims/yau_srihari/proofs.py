@@ -18,6 +18,7 @@ from modern.claims.algebra import (
     zero,
 )
 from modern.claims.evidence import Check, claim
+from modern.claims.kovalevsky_schulz.proofs import lemma_lz
 from modern.claims.yau_srihari.envelopes import algorithm_as_printed
 
 
@@ -166,6 +167,19 @@ def third_corner() -> Proof:
             Step("not negative", {"v": corner, "w": same_side}, not_negative(at_point), (term("w"),), ("v",)),
             Step("not opposite", {"v": corner, "w": not_negative(at_point)}, same_side, (term("v w"),)),
         ),
+    )
+
+
+@proves("yau-srihari.55")
+def extreme_point_of_plane() -> Proof:
+    return Proof(
+        "each supporting plane of the surface contains an extreme point of the surface",
+        "A point of the surface is a least combination of points of the floor. None of them is above the surface, "
+        "because the point of the surface below it would give a smaller combination. So every point of the surface is "
+        "a combination of points of V, the points of the floor on the surface. On a supporting plane a linear function "
+        "has its largest value on the surface, and so the plane contains points of V. By lemma LZ one of them is no "
+        "combination of other points of V. So it is not between two points of the surface.",
+        lemma_lz().steps,
     )
 
 
