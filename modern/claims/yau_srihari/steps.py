@@ -1,4 +1,4 @@
-"""Checks of steps of Yau and Srihari: the queue of edges, vertices in rows and columns, and the search by angles."""
+"""Checks of Yau and Srihari: convex and simple solids, the queue of edges, vertices in rows, the search by angles."""
 
 from collections.abc import Mapping
 from itertools import product
@@ -6,13 +6,13 @@ from random import Random
 
 import numpy as np
 
-from modern.claims.evidence import Check, Generator, claim, refuted, searched
+from modern.claims.evidence import Check, Generator, claim, exhibited, refuted, searched
 from modern.claims.hulls import exact_hull, octree_hull
 from modern.claims.sampled_sets import Point, counterexample_points
 from modern.claims.yau_srihari.envelopes import SOLIDS, array_of, envelopes_against_judge, hull_of
 from modern.digital.solids import VERTEX, ball
 from modern.papers.yau_srihari import OctreeHull, Printed
-from modern.papers.yau_srihari.convexity import is_simple
+from modern.papers.yau_srihari.convexity import is_digitally_convex, is_midpoint_convex, is_simple
 from modern.papers.yau_srihari.envelope import reduced_tree
 from modern.papers.yau_srihari.printed import NAMES
 from modern.papers.yau_srihari.quadtree import Leaf, Place, heights, no_columns, written
@@ -142,8 +142,7 @@ def _angles(hull: OctreeHull) -> tuple[int, int, int, int]:
     """Return four counts of angles, each for all edges of the lower envelope together.
 
     The first is for all points beyond an edge, and the second for such points of the reduced set A, the points that can
-    be vertices.  The third is for the points that the search visits, and the fourth for these points and for the
-    corners of squares with which the search bounds the angles of many points.
+    be vertices.  The third is for the points that the search visits, and the fourth for these points and the bounds.
     """
     reduced = written(no_columns(hull.side), {(x, y): Leaf(z) for x, y, z in hull.lower.reduced})
     searches = [_Counted(*step.edge, step.normal, Printed()) for step in hull.lower.steps]
