@@ -1,7 +1,7 @@
 """Data that the checks of several documents share: sampled point sets and counterexamples."""
 
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
 from importlib.resources import files
@@ -131,8 +131,13 @@ def _outward(points: tuple[Point, ...], defining: tuple[int, ...], start: tuple[
     else:
         p, q, r = (points[k] for k in defining)
         plane = plane_through(p, q, r)
-    mean = sum(plane_value(plane, points[k]) for k in start)
-    return (-plane[0], -plane[1], -plane[2], -plane[3]) if mean > 0 else plane
+    return oriented(plane, [points[k] for k in start])
+
+
+def oriented(plane: Plane, points: Sequence[Point]) -> Plane:
+    """Return an equation of the plane that is negative at the mean of the points."""
+    total = sum(plane_value(plane, point) for point in points)
+    return plane if total < 0 else (-plane[0], -plane[1], -plane[2], -plane[3])
 
 
 def _normal(points: tuple[Point, ...], start: tuple[int, ...]) -> Point:

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from fractions import Fraction
 from itertools import combinations, permutations
 
-from modern.claims.appel_will.convexity import area
 from modern.claims.evidence import Check, claim, searched, slip
 from modern.claims.hulls import exact_hull
 from modern.claims.sampled_sets import (
@@ -19,11 +18,10 @@ from modern.claims.sampled_sets import (
     counterexample_points,
     plane_through,
     plane_value,
-    reduced_plane,
     sampled_sets,
 )
 from modern.geometry.mesh import sides
-from modern.geometry.vectors import cross, dot, minus
+from modern.geometry.vectors import cross, dot, lowest, minus, plus
 
 
 @claim("thesis.18")
@@ -40,17 +38,15 @@ def weights_of_combination() -> Check:
 @claim("thesis.22")
 def vertex_formula_with_minus() -> Check:
     points = counterexample_points("middle.csv")
-    middle = points[1]
-    pair_counts = {"+": 0, "-": 0}
+    middle, pair_counts = points[1], {1: 0, -1: 0}
     for p, q in permutations(points, 2):
         share = Fraction(middle[0] - p[0], q[0] - p[0])
-        for sign, factor in (("+", 1), ("-", -1)):
-            right = all((1 - share) * p[k] + factor * share * q[k] == middle[k] for k in (1, 2))
+        for sign in pair_counts:
+            right = all((1 - share) * p[k] + sign * share * q[k] == middle[k] for k in (1, 2))
             pair_counts[sign] += 0 < share < 1 and right
-    corrected = 1 not in exact_hull(points).vertices and pair_counts["+"] == 2
-    message = f"ordered pairs that give the middle point {middle}: {pair_counts['+']} with a plus, "
-    message += f"{pair_counts['-']} with the printed minus"
-    return slip(pair_counts["-"], corrected, "a plus", message)
+    corrected = 1 not in exact_hull(points).vertices and pair_counts[1] == 2
+    message = f"ordered pairs that give the middle point {middle}: {pair_counts[1]} with a plus, "
+    return slip(pair_counts[-1], corrected, "a plus", f"{message}{pair_counts[-1]} with the printed minus")
 
 
 @claim("thesis.23", dimension=2, full=400)
@@ -113,9 +109,9 @@ def _turned_planes(points: Sequence[Point]) -> set[frozenset[int]]:
         plane = queue.pop()
         on = sorted(_on(points, plane))
         flat = exact_hull([points[k] for k in on])
-        if flat.dimension == 2 and frozenset(on) in facets_found:
-            continue
         if flat.dimension == 2:
+            if frozenset(on) in facets_found:
+                continue
             facets_found.add(frozenset(on))
         # Turn the plane about each edge of the face found, in both directions.
         ring = [points[on[k]] for k in (flat.polygon if flat.dimension == 2 else flat.vertices)]
@@ -124,45 +120,35 @@ def _turned_planes(points: Sequence[Point]) -> set[frozenset[int]]:
 
 
 def _turned_lines(sampled: SampledSet) -> set[frozenset[int]]:
-    plane = sampled.judge.plane
-    assert plane is not None
     lines_found: set[frozenset[int]] = set()
     first = p = min(sampled.points)
     while not lines_found or p != first:
-        above = (p[0] + plane[0], p[1] + plane[1], p[2] + plane[2])
-        line = _turned(sampled.points, p, above)
-        lines_found.add(_on(sampled.points, line))
-        on = [sampled.points[k] for k in _on(sampled.points, line)]
+        on = _on(sampled.points, _turned(sampled.points, p, _above(sampled, p)))
+        lines_found.add(on)
         # Continue at the far end of the side, as in gift wrapping.
-        p = max(on, key=lambda q: dot(minus(q, p), minus(q, p)))
+        p = max((sampled.points[k] for k in on), key=lambda q: dot(minus(q, p), minus(q, p)))
     return lines_found
 
 
-@claim("thesis.24", full=400)
-def planes_from_triples(cases: int = CASES) -> Check:
+def _above(sampled: SampledSet, p: Point) -> Point:
+    """Return a point outside the plane of a flat set, perpendicularly above p."""
+    assert sampled.judge.plane is not None
+    return plus(p, lowest(sampled.judge.plane[:3]))
+
+
+@claim("thesis.24", dimension=3, full=400)
+@claim("thesis.25", dimension=2, full=400)
+def planes_from_points(dimension: int, cases: int = CASES) -> Check:
     agreeing = []
-    for sampled in sampled_sets(3, cases):
-        planes = set()
-        for three in combinations(sampled.points, 3):
-            plane = plane_through(*three)
+    for sampled in sampled_sets(dimension, cases):
+        supporting = set()
+        for some in combinations(sampled.points, dimension):
+            # A line of a flat set is the intersection of this set with a perpendicular plane.
+            plane = plane_through(*some, *([_above(sampled, some[0])] if dimension == 2 else []))
             values = [plane_value(plane, point) for point in sampled.points]
             if any(plane[:3]) and (max(values) <= 0 or min(values) >= 0):
-                planes.add(reduced_plane(plane if max(values) <= 0 else tuple(-x for x in plane)))  # type: ignore[arg-type]
-        agreeing.append(planes == {facet.plane for facet in sampled.judge.facets})
-    message = f"in {sum(agreeing)} of {cases} sets, the test of all planes finds exactly the facets of the exact hull"
-    return searched(SETS[3], cases, agreeing, message)
-
-
-@claim("thesis.25", full=400)
-def lines_from_pairs(cases: int = CASES) -> Check:
-    agreeing = []
-    for sampled in sampled_sets(2, cases):
-        lines = set()
-        flat = [(x, y) for x, y, _ in sampled.points]
-        for p, q in combinations(flat, 2):
-            areas = [area(p, q, r) for r in flat]
-            if max(areas) <= 0 or min(areas) >= 0:
-                lines.add(frozenset(k for k, value in enumerate(areas) if not value))
-        agreeing.append(lines == {_on(sampled.points, facet.plane) for facet in sampled.judge.facets})
-    message = f"in {sum(agreeing)} of {cases} sets, the test of all lines finds exactly the edges of the exact hull"
-    return searched(SETS[2], cases, agreeing, message)
+                supporting.add(_on(sampled.points, plane))
+        agreeing.append(supporting == {_on(sampled.points, facet.plane) for facet in sampled.judge.facets})
+    tested, facets = ("planes", "facets") if dimension == 3 else ("lines", "edges")
+    message = f"in {sum(agreeing)} of {cases} sets, the test of all {tested} finds exactly the {facets} of the exact"
+    return searched(SETS[dimension], cases, agreeing, f"{message} hull")

@@ -12,8 +12,9 @@ from modern.claims.evidence import Check, Generator, claim, exhibited, searched,
 from modern.claims.hulls import convex_hull, exact_hull
 from modern.claims.register import statements_of
 from modern.claims.sampled_sets import CASES, SETS, Point, added_points, plane_value, sampled_sets
-from modern.claims.thesis.chapter3_equations import parts
+from modern.claims.thesis.chapter3_equations import parts, with_0
 from modern.claims.thesis.identities import coordinate_planes
+from modern.exact_hull import ExactHull, Facet
 from modern.geometry.vectors import cross, dot, minus
 
 # A triangle, and a point on one of its sides that the procedure adds to the hull under construction.
@@ -28,9 +29,12 @@ _USED_POINTS: list[Point] = [(3, 0, 0), (3, 2, 1), (0, 2, 0), (0, 0, 0), (3, 0, 
 def used_boundary_point() -> Check:
     points = _POINT_ON_A_SIDE
     used = sorted(added_points(convex_hull(points, history=True)))
-    facets = exact_hull(points).facets
-    on_one = [points[k] for k in used if sum(not plane_value(facet.plane, points[k]) for facet in facets) == 1]
+    on_one = [points[k] for k in used if len(_facets_at(points[k], exact_hull(points))) == 1]
     return exhibited(on_one, f"added points that are on only one line of the last hull: {', '.join(map(str, on_one))}")
+
+
+def _facets_at(point: Point, judge: ExactHull) -> list[Facet]:
+    return [facet for facet in judge.facets if not plane_value(facet.plane, point)]
 
 
 def _draw_lattice(random: Random, depth: int) -> tuple[Point, ...]:
@@ -38,14 +42,10 @@ def _draw_lattice(random: Random, depth: int) -> tuple[Point, ...]:
     return tuple(random.sample(lattice, random.randint(6, 14)))
 
 
-def _is_spatial(points: tuple[Point, ...]) -> bool:
-    return exact_hull(points).dimension == 3
-
-
 # Sets with many points on the same lines and planes, by dimension.
 LATTICE_SETS: dict[int, Generator[tuple[Point, ...]]] = {
     2: Generator("subsets of a lattice of 4 x 4 points", 85, partial(_draw_lattice, depth=1)),
-    3: Generator("subsets of a lattice of 4 x 3 x 3 points", 34, partial(_draw_lattice, depth=3), _is_spatial),
+    3: Generator("subsets of a lattice of 4 x 3 x 3 points", 34, partial(_draw_lattice, depth=3), SETS[3].accepts),
 }
 
 
@@ -62,10 +62,9 @@ def end_of_the_procedure(dimension: int, cases: int = 2) -> Check:
         removed[0] += len(remaining)
         removed[1] += len(used) - len(hull.vertices)
         removed[2] += len(hull.history[-1].equations) - len(hull.faces)
-    message = (
-        f"in {cases} drawn sets and a fixed one, {removed[0]} points are neither added nor eliminated, all on the "
-    )
-    message += f"boundary; removed: {removed[1]} added points that are no vertices, {removed[2]} duplicate equations"
+    remain, added, duplicate = removed
+    message = f"in {cases} drawn sets and a fixed one, {remain} points are neither added nor eliminated, all on the "
+    message += f"boundary; removed: {added} added points that are no vertices, {duplicate} duplicate equations"
     return searched(LATTICE_SETS[dimension], cases, [*outcomes, *removed], message)
 
 
@@ -74,11 +73,9 @@ def duplicate_lines(cases: int = 3 * CASES) -> Check:
     outcomes = []
     for points in (*LATTICE_SETS[2].cases(cases), _POINT_ON_A_SIDE):
         hull = convex_hull(points, history=True)
+        sides = [{*added_points(hull)} & {*on_line(points, *face.polygon)} for face in hull.faces]
         last = hull.history[-1].equations
-        used = {*added_points(hull)}
-        for face in hull.faces:
-            side = used & {*on_line(points, *face.polygon)}
-            outcomes += [sum({*ends} <= side for ends in last) >= 2] if len(side) > 2 else []
+        outcomes += [sum({*ends} <= side for ends in last) >= 2 for side in sides if len(side) > 2]
     message = f"{sum(outcomes)} of {len(outcomes)} sides with three or more added points, in {cases} drawn sets and a "
     message += "fixed one, have two or more equations"
     return searched(LATTICE_SETS[2], cases, outcomes, message)
@@ -95,13 +92,9 @@ def planes_at_vertex(cases: int = CASES) -> Check:
     checks = []
     for points in (*LATTICE_SETS[3].cases(cases), PYRAMID):
         judge = exact_hull(points)
-        for k, point in enumerate(points):
-            on = sum(not plane_value(facet.plane, point) for facet in judge.facets)
-            checks.append((on >= 3) == (k in judge.vertices))
-    message = (
-        f"{sum(checks)} of {len(checks)} points of {cases} drawn sets and a pyramid: a vertex lies in three or more "
-    )
-    message += "planes, any other point in two or fewer"
+        checks += [(len(_facets_at(p, judge)) >= 3) == (k in judge.vertices) for k, p in enumerate(points)]
+    message = f"{sum(checks)} of {len(checks)} points of {cases} drawn sets and a pyramid: a vertex lies in three or "
+    message += "more planes, any other point in two or fewer"
     return searched(LATTICE_SETS[3], cases, checks, message)
 
 
@@ -110,7 +103,7 @@ def used_points_in_planes() -> Check:
     points = _USED_POINTS
     hull, judge = convex_hull(points, history=True), exact_hull(points)
     used = sorted({*added_points(hull)} - {*judge.vertices})
-    planes = {points[k]: sum(not plane_value(f.plane, points[k]) for f in judge.facets) for k in used}
+    planes = {points[k]: len(_facets_at(points[k], judge)) for k in used}
     passed = {*planes.values()} == {1, 2} and {*hull.vertices} == {*judge.vertices}
     message = ", ".join(f"{n} for {point}" for point, n in planes.items())
     return exhibited(passed, f"number of planes of the last hull that contain an added point: {message}")
@@ -122,23 +115,15 @@ def boundary_points_on_edges(cases: int = 5) -> Check:
     for points in LATTICE_SETS[3].cases(cases):
         judge = exact_hull(points)
         for k, point in enumerate(points):
-            on = [f for f in judge.facets if not plane_value(f.plane, point)]
+            on = _facets_at(point, judge)
             edges = [{*on[0].polygon} & {*on[1].polygon}] if len(on) == 2 else judge.edges()
-            between = any(_is_between(point, *(points[j] for j in edge)) for edge in edges)
+            ways = [[minus(point, points[j]) for j in edge] for edge in edges]
+            between = any(not any(cross(u, v)) and dot(u, v) < 0 for u, v in ways)
             in_one_plane += len(on) == 1 and not between
             checks += [between and k not in judge.vertices] if len(on) == 2 else []
     message = f"{sum(checks)} of {len(checks)} points in exactly two planes lie between the ends of their common edge"
     check = searched(LATTICE_SETS[3], cases, checks, message)
     return check.unless(in_one_plane, "a point in one plane only, which is between no two ends of an edge")
-
-
-def _is_between(x: Point, p: Point, q: Point) -> bool:
-    return not any(cross(minus(x, p), minus(q, p))) and dot(minus(x, p), minus(x, q)) < 0
-
-
-def _with_0(point: Point, axis: int) -> Point:
-    x, y, z = (0 if k == axis else number for k, number in enumerate(point))
-    return x, y, z
 
 
 @claim("thesis.274", full=400)
@@ -150,9 +135,8 @@ def hull_of_projection(cases: int = CASES) -> Check:
         # The same set is also moved to a plane that is parallel to the y axis.
         for points, normal in ((sampled.points, plane), ([(x, y, 2 * x) for x, y, _ in sampled.points], (2, 0, -1))):
             for axis in (k for k in range(3) if normal[k]):
-                image = [_with_0(point, axis) for point in points]
-                before, after = (parts(some, exact_hull(some)) for some in (points, image))
-                checks.append(before == after)
+                image = [with_0(point, axis) for point in points]
+                checks.append(parts(points, exact_hull(points)) == parts(image, exact_hull(image)))
     message = "projections, from z = x - 2y + 3 or z = 2x, keep the vertices, boundary and inside points, and all lines"
     return searched(SETS[2], cases, checks, f"{sum(checks)} of {len(checks)} {message}")
 

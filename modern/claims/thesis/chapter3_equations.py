@@ -4,32 +4,22 @@ The equations are transcribed as printed and compared with independent formulas 
 """
 
 from collections.abc import Sequence
+from itertools import product
 from random import Random
+from typing import Any
 
 from modern.claims.evidence import Check, Generator, claim, identity, search, searched
 from modern.claims.hulls import convex_hull, exact_hull
-from modern.claims.sampled_sets import (
-    BOTH,
-    CASES,
-    SETS,
-    Plane,
-    Point,
-    flat_and_spatial_sets,
-    plane_value,
-    sampled_sets,
-)
+from modern.claims.sampled_sets import BOTH, CASES, SETS, Plane, Point, flat_and_spatial_sets, plane_value, sampled_sets
 from modern.exact_hull import ExactHull
 from modern.geometry.hull import Hull
 from modern.geometry.vectors import cross
 
-Line = tuple[int, int, int]
-
 
 def procedure_against_judge(dimensions: Sequence[int], cases: int = CASES) -> Check:
     """Check that the procedure in exact arithmetic finds the vertices, other points and planes of the exact hull."""
-    same = []
-    for sampled in (sampled for dimension in dimensions for sampled in sampled_sets(dimension, cases)):
-        same.append(parts(sampled.points, sampled.hull) == parts(sampled.points, sampled.judge))
+    sets = [sampled for dimension in dimensions for sampled in sampled_sets(dimension, cases)]
+    same = [parts(sampled.points, sampled.hull) == parts(sampled.points, sampled.judge) for sampled in sets]
     message = f"in exact arithmetic {sum(same)} of {len(same)} sets agree with the exact hull"
     return searched(BOTH if len(dimensions) == 2 else SETS[dimensions[0]], len(same), same, message)
 
@@ -48,12 +38,9 @@ def other_orders(cases: int = CASES) -> Check:
     same = []
     for sampled in flat_and_spatial_sets(cases):
         orders = [sampled.points, sampled.points[::-1], sorted(sampled.points, key=lambda p: (*p[1:], p[0]))]
-        first, *others = (
-            ({points[k] for k in hull.vertices}, {facet.plane for facet in hull.facets})
-            for points in orders
-            for hull in [exact_hull(points)]
-        )
-        same += [parts == first for parts in others]
+        hulls = [(points, exact_hull(points)) for points in orders]
+        first, *others = (({p[k] for k in hull.vertices}, {facet.plane for facet in hull.facets}) for p, hull in hulls)
+        same += [hull == first for hull in others]
     return searched(BOTH, 2 * cases, same, f"{sum(same)} of {len(same)} other orders of the points give the same hull")
 
 
@@ -72,23 +59,20 @@ def collinear_points(cases: int = 8) -> Check:
     def ends_and_equations(points: tuple[Point, ...]) -> bool:
         hull = convex_hull(points)
         equations: list[Plane] = [tuple(map(int, line)) for line in hull.lines]  # type: ignore[misc]
-        on = all(not plane_value(equation, p) for equation in equations for p in points)
-        found_by_judge = {points[k] for k in exact_hull(points).vertices}
-        ends = {points[k] for k in hull.vertices}
+        on = not any(plane_value(equation, p) for equation in equations for p in points)
         # Two planes that are not the same intersect in the line.
         two_planes = len(equations) == 2 and any(cross(equations[0][:3], equations[1][:3]))
-        return on and two_planes and ends == found_by_judge == {min(points), max(points)}
+        ends = [{points[k] for k in vertices} for vertices in (hull.vertices, exact_hull(points).vertices)]
+        return on and two_planes and ends == [{min(points), max(points)}] * 2
 
     message = "for each set the procedure finds the two ends and two planes that intersect in the line"
     return search(LINES, ends_and_equations, cases, message)
 
 
-def _draw_few(random: Random) -> tuple[Point, ...]:
-    lattice = [(x, y, z) for x in range(-1, 2) for y in range(-1, 2) for z in range(-1, 2)]
-    return tuple(random.sample(lattice, random.randint(1, 12)))
-
-
-FEW: Generator[tuple[Point, ...]] = Generator("1 to 12 points, coordinates from -1 to 1", 27, _draw_few)
+_CUBE: list[Point] = [(x, y, z) for x, y, z in product(range(-1, 2), repeat=3)]
+FEW: Generator[tuple[Point, ...]] = Generator(
+    "1 to 12 points, coordinates from -1 to 1", 27, lambda random: tuple(random.sample(_CUBE, random.randint(1, 12)))
+)
 
 
 @claim("thesis.32", full=2_000)
@@ -117,11 +101,8 @@ def first_two_points(cases: int = CASES) -> Check:
     return searched(BOTH, 2 * cases, checks, message)
 
 
-def line_as_printed(u1: int, v1: int, u2: int, v2: int) -> Line:
-    """Return the line of equations (3.1), (3.2), (3.3) and (3.5), which have the same form in two coordinates U and V.
-
-    The form is (v2 - v1) U + (u1 - u2) V + (u2 - u1) v1 + (v1 - v2) u1 = 0.
-    """
+def line_as_printed(u1: int, v1: int, u2: int, v2: int) -> tuple[int, int, int]:
+    """Return the coefficients that equations (3.1), (3.2), (3.3) and (3.5) all have, in two coordinates U and V."""
     return v2 - v1, u1 - u2, (u2 - u1) * v1 + (v1 - v2) * u1
 
 
@@ -134,6 +115,12 @@ def equation_of_line() -> Check:
     message = "in the two coordinates of the equation, its left side is 0 exactly on the line through the two points"
     argument = "The left side at a point is its distance to the right of the line times the distance of the two points."
     return identity(difference, (2, 2, 2, 2, 1, 1), message, argument)
+
+
+def with_0(point: Sequence[Any], axis: int) -> tuple[Any, Any, Any]:
+    """Return a point or a polynomial point with 0 in place of one coordinate."""
+    x, y, z = (0 if k == axis else number for k, number in enumerate(point))
+    return x, y, z
 
 
 def plane_as_printed(i: Point, j: Point, k: Point) -> Plane:

@@ -14,11 +14,11 @@ from modern.claims.sampled_sets import (
     CASES,
     SETS,
     Approximation,
-    Plane,
     Point,
     SampledSet,
     added_points,
     flat_and_spatial_sets,
+    oriented,
     plane_through,
     plane_value,
     reduced_plane,
@@ -251,11 +251,8 @@ def _added_tetrahedra(sampled: SampledSet) -> Iterator[bool]:
 
 def in_tetrahedron(point: Point, corners: list[Point]) -> bool:
     """Return True if, for every face, the point is not on the opposite side from the remaining corner."""
-    for k, corner in enumerate(corners):
-        plane = plane_through(*(c for m, c in enumerate(corners) if m != k))
-        if plane_value(plane, point) * plane_value(plane, corner) < 0:
-            return False
-    return True
+    planes = [(plane_through(*corners[:k], *corners[k + 1 :]), corner) for k, corner in enumerate(corners)]
+    return all(plane_value(plane, point) * plane_value(plane, corner) >= 0 for plane, corner in planes)
 
 
 def _in_triangle(point: Point, a: Point, b: Point, c: Point) -> bool:
@@ -269,14 +266,9 @@ def _convexity(sampled: SampledSet) -> Iterator[bool]:
         # Page 30: replace only equation NETC, by the planes through its sides and the new point.
         other_planes = [plane for k, plane in enumerate(before.equations) if k != record.checked - 1]
         ends = combinations([sampled.points[k] for k in before.defining[record.checked - 1]], 2)
-        planes = [*other_planes, *(_oriented(plane_through(p, q, sampled.points[added]), inner) for p, q in ends)]
+        planes = [*other_planes, *(oriented(plane_through(p, q, sampled.points[added]), inner) for p, q in ends)]
         values = [plane_value(plane, sampled.points[k]) for plane in planes for k in after.vertices]
         yield (max(values) <= 0) == all(plane_value(plane, sampled.points[added]) <= 0 for plane in other_planes)
-
-
-def _oriented(plane: Plane, inner: list[Point]) -> Plane:
-    total = sum(plane_value(plane, point) for point in inner)
-    return plane if total < 0 else (-plane[0], -plane[1], -plane[2], -plane[3])
 
 
 # The function that examines the stages of a set for each property, and the property as a sentence.

@@ -18,7 +18,6 @@ from modern.claims.sampled_sets import (
     CASES,
     SETS,
     Approximation,
-    Point,
     SampledSet,
     counterexample_points,
     flat_and_spatial_sets,
@@ -40,19 +39,13 @@ def all_hold(generator: Generator[Any], cases: int, outcomes: Iterable[object], 
 
 @claim("thesis.49", "thesis.138", full=400)
 def third_point(cases: int = CASES) -> Check:
-    message = "sets: no point is farther from the line of the first two than the third point"
-    return all_hold(BOTH, 2 * cases, _farthest(flat_and_spatial_sets(cases)), message)
-
-
-def _farthest(sets: tuple[SampledSet, ...]) -> Iterator[bool]:
-    for sampled in sets:
+    checks = []
+    for sampled in flat_and_spatial_sets(cases):
         p, q, r = (sampled.points[k] for k in sampled.hull.history[0].added[:3])
-        areas = [_square(cross(minus(q, p), minus(x, p))) for x in (*sampled.points, r)]
-        yield areas[-1] == max(areas)
-
-
-def _square(u: Point) -> int:
-    return dot(u, u)
+        areas = [cross(minus(q, p), minus(x, p)) for x in (r, *sampled.points)]
+        checks.append(dot(areas[0], areas[0]) == max(dot(area, area) for area in areas))
+    message = "sets: no point is farther from the line of the first two than the third point"
+    return all_hold(BOTH, 2 * cases, checks, message)
 
 
 @claim("thesis.52", full=300)
@@ -116,10 +109,9 @@ def mean_of_first_hull(cases: int = CASES) -> Check:
     for sampled in flat_and_spatial_sets(cases):
         first = sampled.stages()[0]
         judge = exact_hull([sampled.points[k] for k in first.vertices])
-        x, y, z = (sum(sampled.points[k][axis] for k in first.vertices) for axis in range(3))
-        vertex_count = len(first.vertices)
         right.append({reduced_plane(plane) for plane in first.equations} == {f.plane for f in judge.facets})
-        negative += [dot(f.plane[:3], (x, y, z)) + vertex_count * f.plane[3] < 0 for f in judge.facets]
+        # The sum of the values at the vertices has the sign of the value at their mean.
+        negative += [sum(plane_value(f.plane, sampled.points[k]) for k in first.vertices) < 0 for f in judge.facets]
     message = f"{sum(right)} of {len(right)} first hulls H_1 have the equations of the exact hull, and "
     message += f"{sum(negative)} of their {len(negative)} equations are negative at the inside point C"
     return searched(BOTH, 2 * cases, [*right, *negative], message)
@@ -128,10 +120,9 @@ def mean_of_first_hull(cases: int = CASES) -> Check:
 @claim("thesis.67")
 def outside_convention() -> Check:
     ((x, _, _),) = counterexample_points("both_sides.csv")
-    inside = [value < 0 for value in (x, -x)]
-    printed, corrected = inside, [value > 0 for value in (x, -x)]
+    inside, positive = [value < 0 for value in (x, -x)], [value > 0 for value in (x, -x)]
     # Each of the two points, on opposite sides of the line, must be either inside or outside.
-    as_printed, as_corrected = (all(map(ne, inside, outside)) for outside in (printed, corrected))
+    as_printed, as_corrected = (all(map(ne, inside, outside)) for outside in (inside, positive))
     message = f"as printed, the point x = {x} is both an inside and an outside point with respect to the line x = 0"
     return slip(as_printed, as_corrected, "a positive value", message)
 
@@ -160,15 +151,11 @@ def between_by_distances() -> Check:
 @claim("thesis.87")
 def fourth_point_by_largest() -> Check:
     points = counterexample_points("negative_side.csv")
-    plane = plane_as_printed(*points[:3])
-    values = [plane_value(plane, point) for point in points]
+    values = [plane_value(plane_as_printed(*points[:3]), point) for point in points]
     text, listing = convex_hull(points, text=True, on_refusal="return"), convex_hull(points)
     wrong = max(values) == 0 and not text.determined and listing.determined
-    message = (
-        f"the values are {', '.join(map(str, values))}; the largest belongs to a point of the plane itself, "
-        "but the listing finds the hull"
-    )
-    return refuted(wrong, message)
+    message = f"the values are {', '.join(map(str, values))}; the largest belongs to a point of the plane itself, but "
+    return refuted(wrong, f"{message}the listing finds the hull")
 
 
 @claim("thesis.94", full=300)
@@ -187,11 +174,10 @@ def new_planes(cases: int = CASES) -> Check:
 @claim("thesis.97", full=300)
 def planes_at_common_edge(cases: int = CASES) -> Check:
     checks = []
-    for sampled, before, after, visible in _visible(cases):
-        for i, m, edge in _shared(before, visible):
-            plane = plane_through(*(sampled.points[k] for k in (*edge, after.vertices[-1])))
-            thirds = [sampled.points[k] for replaced in (i, m) for k in {*before.defining[replaced]} - edge]
-            checks.append(prod(plane_value(plane, third) for third in thirds) < 0)
+    for sampled, before, after, i, m, edge in _with_common_edge(cases):
+        plane = plane_through(*(sampled.points[k] for k in (*edge, after.vertices[-1])))
+        thirds = [sampled.points[k] for replaced in (i, m) for k in {*before.defining[replaced]} - edge]
+        checks.append(prod(plane_value(plane, third) for third in thirds) < 0)
     return all_hold(SETS[3], cases, checks, "pairs of planes have third points on opposite sides")
 
 
@@ -203,38 +189,37 @@ def _visible(cases: int) -> Iterator[tuple[SampledSet, Approximation, Approximat
             yield sampled, before, after, [k for k, p in enumerate(before.equations) if plane_value(p, point) > 0]
 
 
+def _with_common_edge(cases: int) -> Iterator[tuple[SampledSet, Approximation, Approximation, int, int, set[int]]]:
+    """Yield each set with two successive hulls, the numbers of two planes as in ``_visible``, and their common edge."""
+    for sampled, before, after, visible in _visible(cases):
+        for i, m in combinations(visible, 2):
+            edge = {*before.defining[i]} & {*before.defining[m]}
+            if len(edge) == 2:
+                yield sampled, before, after, i, m, edge
+
+
 @claim("thesis.199")
 def planes_i_and_m() -> Check:
-    pairs, with_j = [], []
-    for sampled, before, _, visible in _visible(CASES):
+    with_j = []
+    for sampled, before, _, i, _, _ in _with_common_edge(CASES):
         j = sampled.stages().index(before)
-        pairs += [edge for *_, edge in _shared(before, visible)]
-        with_j += [len({*before.defining[i]} & {*before.defining[j]}) == 2 for i, *_ in _shared(before, visible)]
-    right = bool(pairs) and all(len(edge) == 2 for edge in pairs) and planes_at_common_edge().holds
-    message = f"{len(pairs)} pairs of planes i and m have two common points; of as many pairs of plane i and plane j "
+        with_j.append(len({*before.defining[i]} & {*before.defining[j]}) == 2)
+    message = f"{len(with_j)} pairs of planes i and m have two common points; of as many pairs of plane i and plane j "
     message += f"of H_j, {sum(with_j)} have"
-    return slip(all(with_j), right, "i and m", message)
+    return slip(all(with_j), planes_at_common_edge().holds, "i and m", message)
 
 
 @claim("thesis.98", full=300)
 def planes_of_same_points(cases: int = CASES) -> Check:
     eliminated, in_order = [], []
-    for _, before, after, visible in _visible(cases):
-        for i, m, edge in _shared(before, visible):
-            eliminated.append(all({*plane} != {*edge, after.vertices[-1]} for plane in after.defining))
-            # A new plane names the points of the edge in the order of the replaced plane, and then the new point.
-            first, second = ([k for k in before.defining[plane] if k in edge] for plane in (i, m))
-            in_order.append(first == second)
+    for _, before, after, i, m, edge in _with_common_edge(cases):
+        eliminated.append({*edge, after.vertices[-1]} not in map(set, after.defining))
+        # A new plane names the points of the edge in the order of the replaced plane, and then the new point.
+        first, second = ([k for k in before.defining[plane] if k in edge] for plane in (i, m))
+        in_order.append(first == second)
     check = all_hold(SETS[3], cases, eliminated, "pairs of planes through the same points are eliminated")
     case = f"a search at equal positions, which misses {in_order.count(False)} of {len(in_order)} pairs"
     return check.unless(not all(in_order), case)
-
-
-def _shared(before: Approximation, visible: list[int]) -> Iterator[tuple[int, int, set[int]]]:
-    for i, m in combinations(visible, 2):
-        edge = set(before.defining[i]) & set(before.defining[m])
-        if len(edge) == 2:
-            yield i, m, edge
 
 
 # A fourth point is necessary to follow the text (thesis.87).

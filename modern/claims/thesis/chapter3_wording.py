@@ -3,13 +3,8 @@
 import re
 from collections.abc import Sequence
 from fractions import Fraction
-from functools import cache
 from itertools import pairwise
 
-from emulator.language.objectcode import Line, Program
-from emulator.machine.machine import Machine
-from emulator.machine.result import Options
-from emulator.machine.session import Session
 from emulator.objectdeck.extent import code_positions
 from modern.claims.evidence import Check, claim, exhibited, refuted, searched, slip
 from modern.claims.hulls import convex_hull, exact_hull
@@ -17,6 +12,7 @@ from modern.claims.sampled_sets import (
     BOTH,
     CASES,
     SETS,
+    Plane,
     Point,
     SampledSet,
     added_points,
@@ -39,17 +35,14 @@ from modern.claims.thesis.chapter3_steps import (
     third_point,
 )
 from modern.claims.thesis.chapter4_examples import EXTREMES_IN_A_PLANE
-from modern.claims.thesis.chapter7 import deck_with
+from modern.claims.thesis.chapter7 import construction
 from modern.edition import programs
 from modern.geometry.vectors import six_volumes
 from modern.thesis.cards import read_hull
-from modern.thesis.job import run_hull
 
 Pair = tuple[int, int]
 # Rules of the text for each stage of the construction, as named in ``chapter3_stages``.
 _RULES_OF_STAGES = ("struck_inside", "accepted", "farthest_outside", "replaced_line", "renumbering")
-# The statements of the listings that eliminate inside points (E), test an equation (C) and add a point (G).
-_ELIMINATE_CHECK_GROW = {"program2.f": {106: "E", 124: "C", 133: "G"}, "program3.f": {103: "E", 116: "C", 125: "G"}}
 
 
 @claim("thesis.267", full=100)
@@ -72,8 +65,7 @@ def text_against_listing(cases: int = CASES) -> Check:
 def _punches_same_hull(sampled: SampledSet) -> bool:
     """Return True if the programs punch the same points and equations as the port, in the same order."""
     hull = convex_hull(sampled.points, "truncating", history=True)
-    run = run_hull(deck_with(sampled.points), programs.program, Options(limit=100_000))
-    cards = read_hull(run.final.result.punched)
+    cards = read_hull(construction(sampled.points, programs.program).run.final.result.punched)
     parts = [[(*map(Fraction, hull.points[k]),) for k in part] for part in (hull.vertices, hull.boundary, hull.inside)]
     equations = [(*map(Fraction, face.coefficients),) for face in hull.faces]
     punched = [*map(list, (cards.vertices, cards.boundary, cards.inside, cards.equations))]
@@ -93,9 +85,7 @@ def line_duplicates_as_printed() -> Check:
     return refuted(lines < len(judge.facets) and right, message)
 
 
-def _duplicates_removed_as_worded(
-    points: Sequence[Point], used: Sequence[int], equations: Sequence[Pair]
-) -> list[Pair]:
+def _duplicates_removed_as_worded(points: Sequence[Point], used: Sequence[int], equations: list[Pair]) -> list[Pair]:
     """Return the equations of lines that remain if pages 26 to 28 are applied as worded.
 
     If a third point satisfies an equation, this equation is eliminated, and so is the middle one of the three points.
@@ -118,23 +108,21 @@ def plane_duplicates_as_printed(cases: int = CASES) -> Check:
     for points in (PYRAMID, *LATTICE_SETS[3].cases(cases)):
         hull = convex_hull(points, history=True)
         last = hull.history[-1].equations
-        planes = [plane_through(points[a], points[b], points[c]) for a, b, c in last]
-        # Page 34 removes plane j if it contains the three points of a later plane i.
-        kept_planes = [
-            _unsigned(plane)
-            for j, plane in enumerate(planes, 1)
-            if all(any(plane_value(plane, points[k]) for k in later) for later in last[j:])
-        ]
+        kept_planes = []
+        for j, defining in enumerate(last, 1):
+            plane = plane_through(*(points[k] for k in defining))
+            # Page 34 removes plane j if it contains the three points of a later plane i.
+            if all(any(plane_value(plane, points[k]) for k in later) for later in last[j:]):
+                kept_planes.append(_unsigned(plane))
         checks.append(sorted(kept_planes) == sorted(_unsigned(facet.plane) for facet in exact_hull(points).facets))
         differing += kept_planes != [_unsigned(face.lowest) for face in hull.faces]
     message = f"a pyramid and {cases} sets keep one equation of each plane, {differing} not in the listing's order"
     return searched(LATTICE_SETS[3], cases, [*checks, differing], message)
 
 
-def _unsigned(plane: tuple[int, int, int, int]) -> tuple[int, int, int, int]:
-    reduced = reduced_plane(plane)
-    a, b, c, d = reduced
-    return max(reduced, (-a, -b, -c, -d))
+def _unsigned(plane: Plane) -> Plane:
+    a, b, c, d = reduced_plane(plane)
+    return max((a, b, c, d), (-a, -b, -c, -d))
 
 
 @claim("thesis.272")
@@ -142,24 +130,20 @@ def program3_against_program2() -> Check:
     two, three = (programs.deck(f"program{k}").text() for k in (2, 3))
     code = [code_positions(programs.program(f"program{k}")) for k in (2, 3)]
     passed = code[0] < code[1] and "ELIMINATING INSIDE PLANES" in three and "ELIMINATING INSIDE" not in two
-    message = (
-        f"the code of program 2 takes about {code[0]} positions, that of program 3 about {code[1]}; only program 3 "
-    )
-    message += "eliminates inside planes"
-    return exhibited(passed, message)
+    message = f"the code of program 2 takes about {code[0]} positions, that of program 3 about {code[1]}; only "
+    return exhibited(passed, f"{message}program 3 eliminates inside planes")
 
 
 @claim("thesis.269")
 def consecutive_hulls() -> Check:
-    checks: list[bool] = []
-    numbers: set[int] = set()
-    for sampled in (*sampled_sets(2, CASES), *sampled_sets(3, CASES)):
-        numbers |= {stage.number for stage in sampled.hull.history}
+    checks = []
+    sets = flat_and_spatial_sets(CASES)
+    for sampled in sets:
         sizes = [len(stage.vertices) for stage in sampled.stages()]
-        larger = sum(a < b for a, b in pairwise(sizes))
-        checks.append(larger == len(sizes) - 1 and sampled.hull.history[0].number == 1)
+        checks.append(all(a < b for a, b in pairwise(sizes)) and sampled.hull.history[0].number == 1)
     message = f"in {sum(checks)} of {len(checks)} sets H_2 is the first hull that has a predecessor"
     # As printed, j + 1 may be 1, and then H_0 is the hull before.
+    numbers = {stage.number for sampled in sets for stage in sampled.hull.history}
     return slip(0 in numbers, all(checks), "2", message)
 
 
@@ -169,43 +153,22 @@ def first_equation_tested(cases: int = CASES) -> Check:
     for sampled in flat_and_spatial_sets(cases):
         # The test of H_1 begins with equation 1.
         stopped = 1
-        for (before, last), (step, netc) in pairwise(_traced(sampled.points)):
+        for (before, last), (step, netc) in pairwise(construction(sampled.points, programs.program).steps):
             outcomes.append(netc == {"EC": stopped, "CC": last + 1, "CG": last}.get(before + step, netc))
             numbers += [netc] if before + step == "EC" else []
             stopped = netc if step == "G" else stopped
     later = sum(number > 1 for number in numbers)
     message = f"{len(numbers)} hulls: the test begins with equation 1 for H_1, and otherwise with the equation at "
-    message += (
-        f"which the test of the hull before stopped, in {later} cases a later one; after each equation, the next "
-    )
-    message += "is tested or a point is added"
+    message += f"which the test of the hull before stopped, in {later} cases a later one; after each equation, the "
+    message += "next is tested or a point is added"
     return searched(BOTH, 2 * cases, [*outcomes, later], message)
-
-
-@cache
-def _traced(points: tuple[Point, ...]) -> list[tuple[str, int]]:
-    """Run the programs on a set; return the steps of ``_ELIMINATE_CHECK_GROW`` in order, each with the number NETC."""
-    steps: list[tuple[str, int]] = []
-
-    def watch(program: Program, machine: Machine) -> None:
-        labels = _ELIMINATE_CHECK_GROW.get(program.source, {})
-
-        def trace(line: Line, session: Session) -> None:
-            if line.label in labels:
-                ((netc, _),) = session.held("NETC")
-                steps.append((labels[line.label], int(netc)))
-
-        machine.tracer = trace
-
-    run_hull(deck_with(points), programs.program, Options(limit=100_000), watch=watch)
-    return steps
 
 
 @claim("thesis.286", full=100)
 def order_of_elimination(cases: int = CASES) -> Check:
     in_order, hulls = [], 0
     for sampled in flat_and_spatial_sets(cases):
-        steps = "".join(step for step, _ in _traced(sampled.points))
+        steps = "".join(step for step, _ in construction(sampled.points, programs.program).steps)
         # The last hull is not tested if no point remains, and a run can end with an error after a new point.
         in_order.append(re.fullmatch("(EC+G)*(EC*)?", steps))
         hulls += steps.count("E")
@@ -225,12 +188,10 @@ def first_hull_against_extremes(cases: int = 4) -> Check:
     first, six_extremes = _volumes_and_planes(counterexample_points("first_hull.csv"))
     passed = [volume >= 0 for volume in within] + [any(within), *fewer]
     larger = all(own[0] > of_six[0] == 0 for own, of_six in flat) and first[0] > six_extremes[0] > 0
-    message = (
-        f"{len(within)} of {len(fewer)} hulls H_1 use only extreme points, and these are not larger than the hull of "
-    )
-    message += "the extreme points; no H_1 has more planes than this hull, unless the extreme points are coplanar"
+    says = f"{len(within)} of {len(fewer)} hulls H_1 use only extreme points, and these are not larger than the hull "
+    says += "of the extreme points; no H_1 has more planes than this hull, unless the extreme points are coplanar"
     case = f"a set with six times the volume {first[0]} for H_1, and {six_extremes[0]} for the hull of the extremes"
-    return searched(SETS[3], cases, passed, message).unless(larger, case)
+    return searched(SETS[3], cases, passed, says).unless(larger, case)
 
 
 def _volumes_and_planes(points: Sequence[Point]) -> tuple[tuple[int, int], tuple[int, int]]:

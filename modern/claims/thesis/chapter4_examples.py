@@ -14,9 +14,9 @@ from itertools import product
 from emulator.machine.result import Options
 from modern.claims.evidence import Check, claim, exhibited, slip
 from modern.claims.hulls import convex_hull, exact_hull
-from modern.claims.sampled_sets import added_points, counterexample
+from modern.claims.sampled_sets import added_points, counterexample_points
 from modern.comparison.difference import disagreement
-from modern.comparison.outcome import Outcome, Vector, from_cards, from_judge
+from modern.comparison.outcome import Vector, from_cards, from_judge
 from modern.edition import programs
 from modern.edition.apparatus import build
 from modern.edition.chapter4 import (
@@ -29,11 +29,9 @@ from modern.edition.chapter4 import (
     printed_point,
     theorem_faults,
 )
-from modern.exact_hull.certificate import rank
-from modern.formats.csv import points as csv_points
 from modern.formats.deck import data_deck
 from modern.geometry.hull import NOT_ACCEPTABLE
-from modern.geometry.vectors import lowest
+from modern.geometry.vectors import independent
 from modern.thesis.cards import scaled
 from modern.thesis.job import Load, run_hull
 
@@ -133,8 +131,7 @@ def lost_candidates(theorem: Theorem) -> list[Vector]:
     """
     (plane,) = theorem.planes
     known = [point.at for point in theorem.points]
-    low = [min(p[k] for p in known) for k in range(3)]
-    high = [max(p[k] for p in known) for k in range(3)]
+    low, high = ([choose(p[k] for p in known) for k in range(3)] for choose in (min, max))
     candidates: list[Vector] = []
     for x, z in product(range(int(low[0]), int(high[0]) + 1), range(int(low[2]), int(high[2]) + 1)):
         a, b, c, d = plane.coefficients
@@ -153,16 +150,10 @@ def _outside_plane(theorem: Theorem) -> Check:
 
 def _lost_point(theorem: Theorem) -> Check:
     candidates = lost_candidates(theorem)
-    first, *points = (p.at for p in theorem.points)
-    nonplanar = 0
-    for candidate in candidates:
-        arms = [[a - b for a, b in zip(point, first, strict=True)] for point in (*points, candidate)]
-        nonplanar += rank(map(lowest, arms)) == 3
-    return exhibited(
-        bool(candidates) and nonplanar == len(candidates),
-        f"{len(candidates)} points with integer coordinates can be the lost P3; with each, the nine points are not "
-        "coplanar",
-    )
+    points = [point.at for point in theorem.points]
+    nonplanar = [len(independent([*points, candidate])) == 4 for candidate in candidates]  # type: ignore[list-item]
+    message = f"{len(candidates)} points with integer coordinates can be the lost P3; with each, the nine points are "
+    return exhibited(candidates and all(nonplanar), f"{message}not coplanar")
 
 
 def _faces(points: Sequence[Vector]) -> set[Vector]:
@@ -174,11 +165,8 @@ def _not_supporting(theorem: Theorem) -> Check:
     faces = _faces([point.at for point in theorem.points])
     table = [scaled(plane.coefficients, True) for plane in theorem.planes]
     inside = [number for number, plane in enumerate(table, 1) if plane in faces]
-    return exhibited(
-        inside == [1, 2, 3, 4, 5, 6],
-        f"the hull of the six points has the equations {', '.join(map(str, inside))} of the table and "
-        f"{len(faces) - len(inside)} others",
-    )
+    message = f"the hull of the six points has the equations {', '.join(map(str, inside))} of the table and "
+    return exhibited(inside == [1, 2, 3, 4, 5, 6], f"{message}{len(faces) - len(inside)} others")
 
 
 @cache
@@ -201,10 +189,8 @@ def _growing(theorem: Theorem) -> Check:
 def _supporting(theorem: Theorem) -> Check:
     faces = _faces([_point(theorem, name).at for name in points_of_h_5()])
     table = {scaled(plane.coefficients, True) for plane in theorem.planes}
-    return exhibited(
-        faces == table,
-        f"{len(faces & table)} of the {len(table)} listed planes support, up to a factor; H5 has {len(faces)} planes",
-    )
+    message = f"{len(faces & table)} of the {len(table)} listed planes support, up to a factor"
+    return exhibited(faces == table, f"{message}; H5 has {len(faces)} planes")
 
 
 def _last_outside(theorem: Theorem) -> Check:
@@ -224,9 +210,13 @@ def _programs(theorem: Theorem, load: Load) -> Check:
     agrees = outcome.determined and disagreement(outcome, judge, points).agrees
     description = "the printed points" if is_exact else "the points truncated to eight digits"
     missing = f", without {', '.join(theorem.lost)}" if theorem.lost else ""
+    sizes = [f"{len(hull.vertices)} vertices, {len(hull.equations)} planes" for hull in (outcome, judge)]
+    verdict = f"{sizes[0]}, {'like' if agrees else 'unlike'} the exact hull"
+    if not outcome.determined:
+        verdict = f"the listing ends with {outcome.status}; the exact hull has {sizes[1]}"
     # If the cards truncate coordinates, the listing must reject the points.
     passed = agrees if is_exact else outcome.status == NOT_ACCEPTABLE
-    return exhibited(passed, f"{description}{missing}: {_seen(outcome, agrees, judge)}")
+    return exhibited(passed, f"{description}{missing}: {verdict}")
 
 
 @claim("thesis.245")
@@ -237,48 +227,34 @@ def procedure_of_4_8() -> Check:
     used = [theorem.points[k].name for k in added_points(hull)]
     same = [set(used[:n]) == set(points_of_h_5()[:n]) for n in range(4, 9)]
     as_worded = convex_hull(points, text=True, on_refusal="return")
-    outside_six = same[-1] and used[8:] == ["Q9"] and hull.history[-1].outside == 6
-    at = {point.name: point for point in theorem.points}
     farthest = []
     for n, name in enumerate(points_of_h_5()[4:], 4):
-        judge = exact_hull(at[before].at for before in points_of_h_5()[:n])
+        judge = exact_hull(_point(theorem, before).at for before in points_of_h_5()[:n])
         planes = [Plane(0, tuple(map(Fraction, judge.plane_of(facet))), (), "", "") for facet in judge.facets]
-        farthest.append(any(0 < plane.at(at[name]) == max(map(plane.at, theorem.points)) for plane in planes))
-    right = outside_six and [same[0], same[1], same[4]] == [True] * 3 and all(farthest)
+        largest = [(plane.at(_point(theorem, name)), max(map(plane.at, theorem.points))) for plane in planes]
+        farthest.append(any(0 < value == most for value, most in largest))
+    right = same[0] and same[1] and same[4] and used[8:] == ["Q9"] and hull.history[-1].outside == 6 and all(farthest)
     message = f"the procedure makes H_1, H_2 and H_5; {sum(farthest)} of the 4 added points are farthest from a plane"
-    check = exhibited(right, message)
     others = not same[2] and not same[3] and not as_worded.determined
-    return check.unless(others, "H_3 and H_4, which use other points, and the wording of page 29, which makes no H_1")
+    case = "H_3 and H_4, which use other points, and the wording of page 29, which makes no H_1"
+    return exhibited(right, message).unless(others, case)
 
 
-@claim("thesis.246", which="list")
-@claim("thesis.247", which="table")
-def slips_of_4_8(which: str) -> Check:
+@claim("thesis.246", name="Q1", at=(-4, 4, 2))
+@claim("thesis.247", name="Q6", at=(3, 4, 1))
+def slips_of_4_8(name: str, at: tuple[int, int, int]) -> Check:
+    """Check that the coordinates printed for a point are wrong in the list (Q1) or in the table (Q6)."""
     theorem = theorem_of("4.8")
-    printed_points, _ = csv_points(counterexample("slips_4_8.csv"), "slips_4_8.csv")
-    listed, in_table = (Point("", tuple(map(Fraction, map(str, p))), "", "") for p in printed_points)
-    if which == "list":
-        nonzero = [plane.number for plane in theorem.planes if "Q1" in plane.vertices and plane.at(listed)]
-        message = f"equations {', '.join(map(str, nonzero))}, which name Q1, are not 0 at (-4, -4, 2)"
-        return slip(nonzero != [1, 2, 7], _is_one("Q1", (-4, 4, 2)), "(-4, 4, 2)", message)
-    nonzero = [plane.number for plane in theorem.planes if "Q6" in plane.vertices and plane.at(in_table)]
-    not_a_point = in_table.at not in [point.at for point in theorem.points]
+    in_list, in_table = counterexample_points("slips_4_8.csv")
+    printed = Point("", tuple(map(Fraction, in_list if name == "Q1" else in_table)), "", "")
+    planes, point = [plane for plane in theorem.planes if name in plane.vertices], _point(theorem, name)
+    nonzero = [plane.number for plane in planes if plane.at(printed)]
     numbers = ", ".join(map(str, nonzero))
-    message = f"(3, 4, -1) is none of the nine points, and equations {numbers} of (3, 4, 1) are not 0 there"
-    return slip(not (not_a_point and nonzero == [1, 6]), _is_one("Q6", (3, 4, 1)), "(3, 4, 1)", message)
-
-
-def _is_one(name: str, at: tuple[int, int, int]) -> bool:
-    """Return True if a point of theorem 4.8 has these coordinates and lies on each plane that lists it as a vertex."""
-    theorem = theorem_of("4.8")
-    point = _point(theorem, name)
-    values = [plane.at(point) for plane in theorem.planes if name in plane.vertices]
-    return point.at == tuple(map(Fraction, at)) and not any(values)
-
-
-def _seen(outcome: Outcome, agrees: bool, judge: Outcome) -> str:
-    if not outcome.determined:
-        hull = f"{len(judge.vertices)} vertices, {len(judge.equations)} planes"
-        return f"the listing ends with {outcome.status}; the exact hull has {hull}"
-    verdict = "like the exact hull" if agrees else "unlike the exact hull"
-    return f"{len(outcome.vertices)} vertices, {len(outcome.equations)} planes, {verdict}"
+    if name == "Q1":
+        wrong = nonzero == [1, 2, 7]
+        message = f"equations {numbers}, which name Q1, are not 0 at {in_list}"
+    else:
+        wrong = nonzero == [1, 6] and printed.at not in [point.at for point in theorem.points]
+        message = f"{in_table} is none of the nine points, and equations {numbers} of {at} are not 0 there"
+    right = point.at == tuple(map(Fraction, at)) and not any(plane.at(point) for plane in planes)
+    return slip(not wrong, right, f"{at}", message)

@@ -7,7 +7,6 @@ from fractions import Fraction
 from itertools import product
 
 from modern.claims.algebra import (
-    Point,
     Polynomial,
     Step,
     not_negative,
@@ -40,10 +39,8 @@ def eight_theorems() -> Check:
 @claim("thesis.113")
 def extremes_4_2() -> Check:
     points = [point.at for point in theorem_of("4.2").points]
-    passed = all(
-        points[2 * k][k] == max(p[k] for p in points) and points[2 * k + 1][k] == min(p[k] for p in points)
-        for k in range(3)
-    )
+    extremes = [choose(p[k] for p in points) for k in range(3) for choose in (max, min)]
+    passed = extremes == [point[n // 2] for n, point in enumerate(points)]
     return exhibited(passed, "P1 to P6 are the extremes in x, y and z, the largest before the smallest")
 
 
@@ -68,17 +65,15 @@ def sign_e() -> Check:
 @claim("thesis.242")
 def bars_of_page_50() -> Check:
     a, b, c, p, q = 3, -2, 5, (1, 4), (3, 7)
-    as_text = [
-        _distance_squared((x, y), p, q) * (a * a + b * b) == (abs(a * x) + b * y + c) ** 2
-        for x, y in product(range(-3, 4), repeat=2)
-    ]
+    squares = {(x, y): _distance_squared((x, y), p, q) for x, y in product(range(-3, 4), repeat=2)}
+    as_text = [d2 * (a * a + b * b) == (abs(a * x) + b * y + c) ** 2 for (x, y), d2 in squares.items()]
     return proofs.theorem_4_6().check().misprinted(not all(as_text), "bars around all three terms")
 
 
 def _distance_squared(x: tuple[int, int], p: tuple[int, int], q: tuple[int, int]) -> Fraction:
-    along = q[0] - p[0], q[1] - p[1]
-    t = Fraction((x[0] - p[0]) * along[0] + (x[1] - p[1]) * along[1], along[0] ** 2 + along[1] ** 2)
-    return (p[0] + t * along[0] - x[0]) ** 2 + (p[1] + t * along[1] - x[1]) ** 2
+    u, v = q[0] - p[0], q[1] - p[1]
+    t = Fraction((x[0] - p[0]) * u + (x[1] - p[1]) * v, u**2 + v**2)
+    return (p[0] + t * u - x[0]) ** 2 + (p[1] + t * v - x[1]) ** 2
 
 
 @claim("thesis.138")
@@ -96,12 +91,8 @@ def outside_unreplaced_line() -> Check:
     sampled = SampledSet(tuple(points), convex_hull(points, history=True), exact_hull(points))
     before, after = sampled.stages()[:2]
     checked = sampled.hull.history[1].checked
-    unreplaced = [
-        (k + 1, point)
-        for k, plane in enumerate(before.equations)
-        for point in points
-        if k + 1 != checked and plane_value(plane, point) > 0 and plane in after.equations
-    ]
+    kept = [(k, plane) for k, plane in enumerate(before.equations, 1) if k != checked and plane in after.equations]
+    unreplaced = [(k, point) for k, plane in kept for point in points if plane_value(plane, point) > 0]
     message = ", ".join(f"{point[:2]} is outside line {k}" for k, point in unreplaced)
     return refuted(unreplaced, f"{message}; the line replaced is line {checked}")
 
@@ -111,7 +102,8 @@ X1, Y1, Y2 = variables("x_1 y_1 y_2")
 
 
 def _values(x: Polynomial, y: Polynomial) -> list[Polynomial]:
-    return [a * x + b * y + c for a, b, c in _printed_lines(X1, Y1, Y2)]
+    """Return the left sides of equations (1), (2) and (3) of page 53 at a point."""
+    return [x - X1, Y1 * x - X1 * y, X1 * y - Y2 * x]
 
 
 @claim("thesis.140")
@@ -124,11 +116,8 @@ def lines_of_figure_3() -> Check:
     steps = [Step("the line contains the corner", {}, zero(value)) for value in on]
     steps += [Step("the third corner is inside", signs, positive(-value), (by,)) for value, by in beside]
     argument = "The equations vanish at two corners and are negative at the third if x_1 > 0 and y_1 < y_2"
-    return proved(
-        argument,
-        (step.is_valid() for step in steps),
-        "each of the three lines contains two corners and is negative at the third",
-    )
+    message = "each of the three lines contains two corners and is negative at the third"
+    return proved(argument, (step.is_valid() for step in steps), message)
 
 
 @claim("thesis.141")
@@ -175,9 +164,3 @@ def third_equation() -> Check:
     at_first_point = _values(X1, Y1)[2]
     message = "the third equation is 0 on the line of P_2 and P_3 but not at P_1"
     return slip(not at_first_point.terms, lines_of_figure_3().holds, "a line", message)
-
-
-def _printed_lines(x1: Polynomial, y1: Polynomial, y2: Polynomial) -> tuple[Point, ...]:
-    """Return the coefficients of equations (1), (2) and (3) of page 53."""
-    one, none = polynomial(1), polynomial(0)
-    return (one, none, -x1), (y1, -x1, none), (-y2, x1, none)

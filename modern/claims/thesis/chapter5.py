@@ -11,10 +11,9 @@ from operator import mul
 from emulator.errors import DeckError
 from emulator.language.cards import deck_from_lines
 from emulator.language.formats import Literal
-from emulator.language.objectcode import Line, Program
+from emulator.language.objectcode import Program
 from emulator.machine.machine import Machine
 from emulator.machine.result import Options
-from emulator.machine.session import Session
 from emulator.machine.timing import measure
 from emulator.numbers import numbers
 from modern.claims.evidence import Check, claim, exhibited, searched
@@ -26,6 +25,8 @@ from modern.claims.thesis.chapter3_steps import fourth_point_by_largest
 from modern.claims.thesis.chapter3_wording import line_duplicates_as_printed
 from modern.claims.thesis.chapter7 import (
     PLACES,
+    TETRAHEDRON,
+    construction,
     deck_of,
     deck_with,
     entries_of_plane_table,
@@ -38,7 +39,7 @@ from modern.claims.thesis.chapter7_errors import two_kinds_of_error
 from modern.comparison.difference import disagreement
 from modern.comparison.outcome import from_card_hull, from_cards, from_judge
 from modern.edition import programs
-from modern.edition.chapter6 import EXAMPLES, Print, input_deck, prints
+from modern.edition.chapter6 import EXAMPLES, input_deck, prints
 from modern.thesis.cards import CardHull, read_hull
 from modern.thesis.job import COPLANAR, HullRun, run_hull
 
@@ -59,10 +60,8 @@ def error_in_program(cases: int = CASES) -> Check:
     names = ("throughc.deck", "zeroplane.deck")
     ended = [typed(run_of(name)).endswith("ERROR IN PROGRAM") for name in names]
     hulls = [convex_hull(points_on(deck_of(name))) for name in names]
-    message = (
-        "in exact arithmetic, the corrected procedure never ends with the message; program 3 types it for "
-        f"{names[0]}, whose hull needs the correction {', '.join(hulls[0].corrected)}"
-    )
+    message = "in exact arithmetic, the corrected procedure never ends with the message; program 3 types it for "
+    message += f"{names[0]}, whose hull needs the correction {', '.join(hulls[0].corrected)}"
     outcomes = [procedure_against_judge((2, 3), cases).holds, ended[0] and hulls[0].corrected]
     right = all(ended) and all(hull.determined for hull in hulls) and not hulls[1].corrected
     case = f"{names[1]}, which has too many digits: in exact arithmetic, no correction is needed"
@@ -88,10 +87,8 @@ def message_after_wrong_hull(cases: int = CASES) -> Check:
     renumbered = run_hull(deck_with(_THREE_BEFORE_A_VERTEX), programs.program, options)
     hull = read_hull(renumbered.final.result.punched)
     announced = all(map(_is_announced, (run_of("silent.deck"), renumbered)))
-    case = (
-        f"eight digits: after {len(punched)} of {len(vertices)} vertices of silent.deck, program 3 punches the line; "
-        f"and by program 2 as listed, which punches it after the wrong vertices {hull.satisfied[0][0]} of a line"
-    )
+    case = f"eight digits: after {len(punched)} of {len(vertices)} vertices of silent.deck, program 3 punches the line"
+    case += f"; and by program 2 as listed, which punches it after the wrong vertices {hull.satisfied[0][0]} of a line"
     wrong = announced and punched != vertices and _on_equations(hull)[0] != _listed(hull)[0]
     generator = replace(BOTH, name=f"{BOTH.name}, and the first two and three points of each")
     return searched(generator, 2 * cases, right, message).unless(wrong, case)
@@ -107,10 +104,9 @@ def _corrected_program2(name: str) -> Program:
 
 def _on_equations(hull: CardHull) -> list[tuple[tuple[int, ...], int]]:
     """Return, for each equation, the numbers of the vertices that satisfy it, and the number of the equation."""
-    return [
-        (tuple(k for k, vertex in enumerate(hull.vertices, 1) if not sum(map(mul, e, (*vertex, 1)))), number)
-        for number, e in enumerate(hull.equations, 1)
-    ]
+    vertices = [*enumerate(hull.vertices, 1)]
+    on = [tuple(k for k, vertex in vertices if not sum(map(mul, e, (*vertex, 1)))) for e in hull.equations]
+    return [*zip(on, range(1, len(on) + 1), strict=True)]
 
 
 def _listed(hull: CardHull) -> list[tuple[tuple[int, ...], int]]:
@@ -133,17 +129,14 @@ def _first_run(exponent: str) -> HullRun:
 def points_are_coplanar(cases: int = CASES) -> Check:
     checks = []
     for sampled in flat_and_spatial_sets(cases):
-        run = run_hull(deck_with(sampled.points), programs.program)
-        checks.append((COPLANAR in run.steps[0].result.typed) == bool(sampled.flat))
+        typed_by_program1 = construction(sampled.points, programs.program).run.steps[0].result.typed
+        checks.append((COPLANAR in typed_by_program1) == sampled.flat)
     message = f"in {sum(checks)} of {len(checks)} runs, program 1 types the message exactly if the set is flat"
     runs = [*map(_first_run, ("E+01", "E-17")), run_hull(deck_with(_NEARLY_FLAT), programs.program)]
     wrong = [COPLANAR in run.steps[0].result.typed for run in runs] == [False, True, True]
     wrong = wrong and exact_hull(_SPACE).dimension == exact_hull(_NEARLY_FLAT).dimension == 3
-    case = (
-        "five points in space scaled to about 1E-18 and by four points with coordinates of eight digits, which are "
-        "reported as coplanar"
-    )
-    return searched(BOTH, 2 * cases, checks, message).unless(wrong, case)
+    case = "five points in space scaled to about 1E-18 and by four points with coordinates of eight digits, which are "
+    return searched(BOTH, 2 * cases, checks, message).unless(wrong, f"{case}reported as coplanar")
 
 
 @claim("thesis.178")
@@ -158,14 +151,11 @@ def underflow() -> Check:
 def plane_table_size() -> Check:
     size = next(entry.size for entry in programs.program("program3").storage.arrays() if entry.name == "KK")
     hull = exact_hull([(k, k**2, k**3) for k in range(MOST_POINTS)])
-    planes = len(hull.facets)
-    most = entries_of_plane_table()
-    fits = len(hull.vertices) == MOST_POINTS and planes == 2 * MOST_POINTS - 4 == size == PLACES
-    message = (
-        f"{len(hull.vertices)} points of a curve have {planes} planes, the most by Euler's formula, which fit the table"
-    )
-    check = exhibited(fits, message)
-    return check.unless(most > size, f"the intermediate hulls of table.deck, which need {most} entries")
+    points, planes, most = len(hull.vertices), len(hull.facets), entries_of_plane_table()
+    fits = points == MOST_POINTS and planes == 2 * MOST_POINTS - 4 == size == PLACES
+    message = f"{points} points of a curve have {planes} planes, the most by Euler's formula, which fit the table"
+    case = f"the intermediate hulls of table.deck, which need {most} entries"
+    return exhibited(fits, message).unless(most > size, case)
 
 
 @claim("thesis.14")
@@ -206,15 +196,14 @@ def printed_hulls(examples: Iterable[int] = EXAMPLES) -> Check:
         outcome = from_card_hull("print", f"program{last.program}", hull, points)
         difference = disagreement(outcome, from_judge(judge, points), points)
         on_equation = _on_equations(hull)
-        planes: dict[tuple[int, ...], list[tuple[Fraction, ...]]] = {}
-        for vertices, number in on_equation:
-            planes.setdefault(vertices, []).append(hull.equations[number - 1])
+        complete = difference.error == 0
         # Program 1 prints two planes for each line.
         if last.program == 1:
+            planes: dict[tuple[int, ...], list[tuple[Fraction, ...]]] = {}
+            for vertices, number in on_equation:
+                planes.setdefault(vertices, []).append(hull.equations[number - 1])
             lines = {*combinations(range(1, len(hull.vertices) + 1), 2)}
             complete = planes.keys() == lines and all(len(pair) == 2 and _differ(*pair) for pair in planes.values())
-        else:
-            complete = difference.error == 0
         checks.append(difference.agrees and not outcome.strange and complete and on_equation == _listed(hull))
     message = f"printed hulls that equal the exact hull in everything printed: {sum(checks)} of {len(checks)}; "
     message += f"points and dimension: {', '.join(f'{n} and {dimension}' for n, dimension in sets)}"
@@ -231,18 +220,13 @@ def possible_output() -> Check:
     printed = []
     for number in (1, 2, 3):
         program = programs.program(f"program{number}")
-        cards = [
-            line for k in EXAMPLES for result in prints(k) if result.program == number for line in _punched(result)
-        ]
+        results = [result for k in EXAMPLES for result in prints(k) if result.program == number]
+        cards = [line for result in results if result.device == "punch" for line in result.lines]
         statements = " ".join(line.text for line in program.statements)
         punched = {int(label) for label in re.findall(r"PUNCH *(\d+)", statements)}
         headings = {text for k, form in program.formats if k in punched for text in map(_heading, form.specs) if text}
         printed += [any(heading in card for card in cards) for heading in headings]
     return exhibited(all(printed), "the cards of chapter 6 show all texts of the FORMATs with which the programs punch")
-
-
-def _punched(result: Print) -> tuple[str, ...]:
-    return tuple(result.lines) if result.device == "punch" else ()
 
 
 def _heading(item: object) -> str:
@@ -254,11 +238,9 @@ def first_card() -> Check:
     decks = [[card.text.rstrip() for card in input_deck(example).cards] for example in EXAMPLES]
     listing = programs.deck("program1").text()
     read = ("READ 1,N", "1 FORMAT (I2)", "READ 21,X(I),Y(I),Z(I)", "21 FORMAT (4E14.8")
-    passed = all(
-        len(first) == 2 and len(others) == int(first) and {*map(len, others)} == {3 * 14} for first, *others in decks
-    )
+    right = [len(first) == 2 and [*map(len, others)] == [3 * 14] * int(first) for first, *others in decks]
     message = f"the {len(decks)} printed decks have N, then N cards with 3 x 14 characters; FORMATs give the columns"
-    return exhibited(passed and all(words in listing for words in read), message)
+    return exhibited(all(right) and all(words in listing for words in read), message)
 
 
 # Six points for which program 3 eliminates the last two planes of its table.
@@ -283,29 +265,18 @@ def procedure_in_exact_arithmetic(dimensions: tuple[int, ...], cases: int = CASE
         wrong.append(not rule().holds)
         case += f"; by the rule of {words}"
     if 3 in dimensions:
-        faults = {"P3-025": deck_with(_LAST_PAIR), "P3-026": deck_of("cube.deck"), "P3-027": deck_of("throughc.deck")}
-        for row, deck in faults.items():
-            is_typed = typed(run_hull(deck, programs.program)).endswith("ERROR IN PROGRAM")
-            wrong.append(is_typed and convex_hull(points_on(deck)).corrected == (row,))
+        last_pair = construction(_LAST_PAIR, programs.program).run
+        faults = {"P3-025": last_pair, "P3-026": run_of("cube.deck"), "P3-027": run_of("throughc.deck")}
+        for row, run in faults.items():
+            corrected = convex_hull(points_on(run.steps[0].deck)).corrected
+            wrong.append(typed(run).endswith("ERROR IN PROGRAM") and corrected == (row,))
         case += f"; and by program 3 as listed, which types ERROR IN PROGRAM for sets that need {', '.join(faults)}"
     return procedure_against_judge(dimensions, cases).unless(all(wrong), case)
 
 
 @claim("thesis.263", full=100)
 def inside_heading(cases: int = CASES) -> Check:
-    tests: list[tuple[bool, bool]] = []
-
-    def watch(program: Program, machine: Machine) -> None:
-        def trace(line: Line, session: Session) -> None:
-            # Statement 108 tests INSID before an inside point is punched.
-            if line.label == 108:
-                is_punched = any(event.text == "INSIDE POINTS" for event in session.devices.events)
-                tests.append((is_punched, [value for value, _ in session.held("INSID")] == [2]))
-
-        machine.tracer = trace if program.source == "program3.f" else None
-
-    for points in SETS[3].cases(cases):
-        run_hull(deck_with(points), programs.program, Options(limit=30_000), watch=watch)
+    tests = [t for points in SETS[3].cases(cases) for t in construction(points, programs.program).inside]
     after = [is_2 for is_punched, is_2 in tests if is_punched]
     message = f"program 3 tests INSID for each inside point: after the heading it is 2 at {sum(after)} of {len(after)} "
     message += f"tests, and before the heading at {sum(map(any, tests)) - len(after)} of {len(tests) - len(after)}"
@@ -360,9 +331,8 @@ def sign_without_products() -> Check:
 
 @claim("thesis.196")
 def total_of_translation() -> Check:
-    tetrahedron = [(0, 0, 0), (60, 0, 0), (0, 60, 0), (0, 0, 60)]
     times, complete = [], []
-    for points in ([*tetrahedron, *((k, 1, 1) for k in range(1, 40))], [(k, k**2, k**3) for k in range(-4, 5)]):
+    for points in ([*TETRAHEDRON, *((k, 1, 1) for k in range(1, 40))], [(k, k**2, k**3) for k in range(-4, 5)]):
         runs = [run_hull(deck_with(points), load, Options(core=60_000)) for load in (programs.program, _translated)]
         last = [run.steps[-1] for run in runs]
         times.append([measure(step.program, step.result).processor_time.seconds for step in last])
@@ -378,14 +348,11 @@ def points_moved_back() -> Check:
     points = [(1, 2, 3), (9, 2, 3), (1, 6, 3), (1, 2, 7)]
     run = run_hull(deck_with(points), _translated, Options(core=60_000))
     hull = read_hull(run.final.result.punched)
-    punched = {*hull.vertices}
     original = {tuple(map(Fraction, point)) for point in points}
     centre = [sum(axis) / len(original) for axis in zip(*original, strict=True)]
     without = {tuple(x - c for x, c in zip(point, centre, strict=True)) for point in original}
     # The equations are 0 at three original vertices each.
     right = sorted(_on_equations(hull)) == sorted(_listed(hull)) and len(hull.equations) == len(points)
-    message = (
-        f"{len(punched)} vertices and {len(hull.equations)} planes are punched in the original coordinates; those of "
-        "the vertices differ from the moved ones"
-    )
-    return exhibited(right and punched == original != without, message)
+    message = f"{len(hull.vertices)} vertices and {len(hull.equations)} planes are punched in the original coordinates"
+    message += "; those of the vertices differ from the moved ones"
+    return exhibited(right and {*hull.vertices} == original != without, message)

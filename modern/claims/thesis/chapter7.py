@@ -1,32 +1,39 @@
 """Checks of chapters 5 and 7: the machine, the data sheet, the listings, and the moved origin."""
 
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from fractions import Fraction
-from functools import cache
+from functools import cache, partial
 from itertools import combinations, pairwise
+from typing import Any
 
 from emulator.language.cards import Deck, deck_from_lines, deck_from_text
+from emulator.language.objectcode import Line, Program
 from emulator.language.storage import FIELD, FUNCTION_NAMES, OBJECT_PROGRAM
+from emulator.machine.machine import Machine
 from emulator.machine.result import Options
+from emulator.machine.session import Session
 from emulator.objectdeck.extent import code_positions
 from modern.claims.evidence import Check, claim, exhibited, refuted, searched, slip
 from modern.claims.hulls import convex_hull, exact_hull
 from modern.claims.register import statements_of
-from modern.claims.sampled_sets import CASES, SETS, Point, counterexample, plane_through, sampled_sets
+from modern.claims.sampled_sets import CASES, SETS, Point, counterexample, plane_through, plane_value, sampled_sets
 from modern.claims.thesis.chapter3_steps import between_by_distances
 from modern.comparison.outcome import Vector, from_cards
 from modern.edition import programs
 from modern.formats.deck import coordinate_field, data_deck, exact_points
-from modern.geometry.vectors import dot
 from modern.port.arithmetic import distance_squared
 from modern.port.points import take
 from modern.thesis.cards import read_hull
-from modern.thesis.job import HullRun, run_hull
+from modern.thesis.job import HullRun, Load, run_hull
 
+# A function that is called before each statement of a run.
+Trace = Callable[[str, Line, Session], None]
 CORE, SMALLER_CORE = 40_000, 20_000
 THREE = ("program1", "program2", "program3")
 PLACES = 98
+TETRAHEDRON = ((0, 0, 0), (60, 0, 0), (0, 60, 0), (0, 0, 60))
 
 
 def deck_of(name: str) -> Deck:
@@ -43,6 +50,54 @@ def run_of(name: str) -> HullRun:
 def deck_with(points: Iterable[Iterable[object]]) -> Deck:
     """Return a data deck with the given points."""
     return data_deck([[*map(str, point)] for point in points], "points")
+
+
+def traced_run(points: Iterable[Iterable[object]], trace: Trace, load: Load = programs.program) -> HullRun:
+    """Run the programs on a set; call ``trace`` before each statement, with the name of its source and the session."""
+
+    def watch(program: Program, machine: Machine) -> None:
+        machine.tracer = partial(trace, program.source)
+
+    return run_hull(deck_with(points), load, Options(limit=100_000), watch=watch)
+
+
+def held(session: Session, name: str) -> Any:
+    """Return the value of a variable or array element of a running program."""
+    ((value, _),) = session.held(name)
+    return value
+
+
+@dataclass(frozen=True, slots=True)
+class Construction:
+    """A run of the programs, with the steps of ``_STEPS`` in order, each with the number NETC, and the tests of INSID.
+
+    A test of INSID is a pair: whether the heading of the inside points is punched, and whether INSID is 2.
+    """
+
+    run: HullRun
+    steps: list[tuple[str, int]]
+    inside: list[tuple[bool, bool]]
+
+
+# The statements of the listings that eliminate inside points (E), test an equation (C) and add a point (G).
+_STEPS = {"program2.f": {106: "E", 124: "C", 133: "G"}, "program3.f": {103: "E", 116: "C", 125: "G"}}
+
+
+@cache
+def construction(points: tuple[Point, ...], load: Load) -> Construction:
+    """Run the programs on a set once for all checks of its steps."""
+    steps: list[tuple[str, int]] = []
+    inside: list[tuple[bool, bool]] = []
+
+    def trace(source: str, line: Line, session: Session) -> None:
+        if line.label in _STEPS.get(source, {}):
+            steps.append((_STEPS[source][line.label], int(held(session, "NETC"))))
+        # Statement 108 tests INSID before an inside point is punched.
+        if source == "program3.f" and line.label == 108:
+            is_punched = any(event.text == "INSIDE POINTS" for event in session.devices.events)
+            inside.append((is_punched, held(session, "INSID") == 2))
+
+    return Construction(traced_run(points, trace, load), steps, inside)
 
 
 def points_on(deck: Deck) -> list[Vector]:
@@ -68,14 +123,10 @@ def cards_read_and_punched() -> Check:
     return exhibited(all({"READ", "PUNCH"} <= of_program for of_program in words), "all programs have READ and PUNCH")
 
 
-def _positions(name: str) -> int:
-    program = programs.program(name)
-    return OBJECT_PROGRAM + FUNCTION_NAMES + code_positions(program) + program.storage.fields * FIELD
-
-
 @claim("thesis.4", "thesis.153")
 def program_sizes() -> Check:
-    sizes = [_positions(name) for name in THREE]
+    deck_size = OBJECT_PROGRAM + FUNCTION_NAMES
+    sizes = [deck_size + code_positions(p) + p.storage.fields * FIELD for p in map(programs.program, THREE)]
     message = f"programs 1 to 3 need about {', '.join(map(str, sizes))} positions, by an estimate"
     return exhibited(all(SMALLER_CORE < size <= CORE for size in sizes), message)
 
@@ -85,13 +136,10 @@ def fifty_one_points() -> Check:
     points = points_on(deck_of("table.deck"))
     arrays = [{entry.name: entry.size for entry in programs.program(name).storage.arrays()} for name in THREE]
     most = entries_of_plane_table()
-    coordinates = {
-        of_program[axis] for of_program, axes in zip(arrays, ("XYZ", "RST", "XYZ"), strict=True) for axis in axes
-    }
-    tetrahedron = [(0, 0, 0), (60, 0, 0), (0, 60, 0), (0, 0, 60)]
-    many = [*tetrahedron, *((k, 1, 1) for k in range(1, 48))]
+    coordinates = {sizes[axis] for sizes, axes in zip(arrays, ("XYZ", "RST", "XYZ"), strict=True) for axis in axes}
+    many = [*TETRAHEDRON, *((k, 1, 1) for k in range(1, 48))]
     hull = read_hull(run_hull(deck_with(many), programs.program).final.result.punched)
-    right = {tuple(map(int, p)) for p in hull.vertices} == {*tetrahedron} and len(many) == 51
+    right = {tuple(map(int, p)) for p in hull.vertices} == {*TETRAHEDRON} and len(many) == 51
     right = right and coordinates == {51} and arrays[2]["KK"] == PLACES
     check = exhibited(right, "the arrays hold 51 points, and the programs find the hull of a set of 51 points")
     message = f"{len(points)} points that need {most} entries of the plane table at once; program 3 has {PLACES}"
@@ -162,32 +210,27 @@ def notation() -> Check:
 def orientation_by_c(cases: int = CASES) -> Check:
     checks = []
     for sampled in sampled_sets(3, cases):
-        added = sampled.hull.history[0].added
-        total = _sum(sampled.points, added)
+        first = [sampled.points[k] for k in sampled.hull.history[0].added]
         for stage in sampled.stages():
-            planes = [f.plane for f in exact_hull([sampled.points[k] for k in stage.vertices]).facets]
-            checks += [dot(plane[:3], total) + plane[3] * len(added) < 0 for plane in planes]
+            judge = exact_hull([sampled.points[k] for k in stage.vertices])
+            # The sum of the values at the first points has the sign of the value at C, their mean.
+            checks += [sum(plane_value(facet.plane, point) for point in first) < 0 for facet in judge.facets]
     fault = plane_through_c()
     check = searched(SETS[3], cases, checks, f"{len(checks)} planes of all H_j are negative at the inside point C")
     return check.unless(not fault.holds, f"a plane that is made and eliminated later: {fault.message}")
-
-
-def _sum(points: tuple[Point, ...], which: tuple[int, ...]) -> tuple[int, int, int]:
-    x, y, z = (sum(points[k][axis] for k in which) for axis in range(3))
-    return x, y, z
 
 
 @claim("thesis.190", full=300)
 def orientation_by_constant_term(cases: int = CASES) -> Check:
     checks = []
     for sampled in sampled_sets(3, cases):
-        added = sampled.hull.history[0].added
-        x, y, z = total = _sum(sampled.points, added)
-        moved = [tuple(len(added) * x - t for x, t in zip(point, total, strict=True)) for point in sampled.points]
+        first = [sampled.points[k] for k in sampled.hull.history[0].added]
+        moved = [[len(first) * x - sum(axis) for x, *axis in zip(p, *first, strict=True)] for p in sampled.points]
         # Compare the value at C, times the number of points of which C is the mean, with the translated constant term.
         for defining in {*combinations(range(5), 3), *(d for stage in sampled.stages() for d in stage.defining)}:
-            a, b, c, d = plane_through(*(sampled.points[k] for k in defining))
-            there, constant = a * x + b * y + c * z + d * len(added), plane_through(*(moved[k] for k in defining))[3]  # type: ignore[arg-type]
+            plane = plane_through(*(sampled.points[k] for k in defining))
+            there = sum(plane_value(plane, point) for point in first)
+            constant = plane_through(*((x, y, z) for x, y, z in (moved[k] for k in defining)))[3]
             checks.append((constant > 0, constant < 0) == (there > 0, there < 0))
     check = searched(SETS[3], cases, checks, f"{len(checks)} constant terms have the sign of the value at C")
     return check.unless(not plane_through_c().holds, "a plane through C, for which both are 0")

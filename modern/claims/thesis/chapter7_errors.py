@@ -5,16 +5,14 @@ from fractions import Fraction
 from functools import reduce
 from itertools import permutations
 from random import Random
-from typing import Any
 
-from emulator.language.objectcode import Line, Program
-from emulator.machine.machine import Machine
+from emulator.language.objectcode import Line
 from emulator.machine.result import Options
 from emulator.machine.session import Session
 from modern.claims.evidence import Check, Generator, claim, exhibited, identity, proved, search, searched
 from modern.claims.hulls import convex_hull, exact_hull
 from modern.claims.sampled_sets import Point, counterexample, plane_through, plane_value
-from modern.claims.thesis.chapter7 import deck_with, points_on, typed
+from modern.claims.thesis.chapter7 import deck_with, held, points_on, traced_run, typed
 from modern.comparison.difference import disagreement
 from modern.comparison.outcome import from_cards, from_hull, from_judge
 from modern.edition import programs
@@ -142,33 +140,23 @@ def _tests_of_own_points(points: tuple[Point, ...]) -> tuple[list[tuple[bool, bo
     misses: list[bool] = []
     rejected: list[bool] = []
 
-    def watch(program: Program, machine: Machine) -> None:
-        labels, names, axes, coefficients = _OWN_POINTS.get(program.source, ({}, (), "", ""))
+    def trace(source: str, line: Line, session: Session) -> None:
+        labels, names, axes, coefficients = _OWN_POINTS.get(source, ({}, (), "", ""))
+        step, numbers = labels.get(line.label), session.options.numbers
+        if step == "T":
+            n = held(session, "NETC")
+            equation = [held(session, f"{letter}({n})") for letter in coefficients]
+            values = []
+            for k in (held(session, f"{name}({n})") for name in names):
+                point = [held(session, f"{axis}({k})") for axis in axes]
+                products = [numbers.multiply(a, x) for a, x in zip(equation, point, strict=False)]
+                values.append(reduce(numbers.add, [*products, equation[-1]]))
+            misses.append(any(map(numbers.sign, values)))
+        elif step:
+            rejected.append(step == "R")
 
-        def trace(line: Line, session: Session) -> None:
-            step, numbers = labels.get(line.label), session.options.numbers
-            if step == "T":
-                n = _held(session, "NETC")
-                equation = [_held(session, f"{letter}({n})") for letter in coefficients]
-                values = []
-                for k in (_held(session, f"{name}({n})") for name in names):
-                    point = [_held(session, f"{axis}({k})") for axis in axes]
-                    products = [numbers.multiply(a, x) for a, x in zip(equation, point, strict=False)]
-                    values.append(reduce(numbers.add, [*products, equation[-1]]))
-                misses.append(any(map(numbers.sign, values)))
-            elif step:
-                rejected.append(step == "R")
-
-        machine.tracer = trace
-
-    run = run_hull(deck_with(points), programs.program, Options(limit=100_000), watch=watch)
+    run = traced_run(points, trace)
     return [*zip(misses, rejected, strict=True)], run
-
-
-def _held(session: Session, name: str) -> Any:
-    """Return the value of a variable or array element of a running program."""
-    ((value, _),) = session.held(name)
-    return value
 
 
 @claim("thesis.184", full=600)
@@ -194,10 +182,8 @@ def programs_rejecting_data(cases: int = 12) -> Check:
     complete = run_hull(deck_with(_NOT_TESTED), programs.program).complete
     missed = complete and any(all(map(_misses, of_plane)) for of_plane in orders)
     continues = not typed(switched).endswith("DATA NOT ACCEPTABLE")
-    case = (
-        "program 1, which has no such test; by a run with sense switch 1 on, which continues after the message; and by "
-        "a plane that misses its points but is replaced before it is tested"
-    )
+    case = "program 1, which has no such test; by a run with sense switch 1 on, which continues after the message; and "
+    case += "by a plane that misses its points but is replaced before it is tested"
     return check.unless("DATA NOT ACCEPTABLE" not in programs.deck("program1").text() and continues and missed, case)
 
 

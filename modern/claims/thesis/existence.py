@@ -8,10 +8,9 @@ from itertools import combinations, product
 
 from modern.claims.evidence import Check, claim, proved
 from modern.claims.hulls import convex_hull, exact_hull
-from modern.claims.invariants import is_sphere
+from modern.claims.invariants import is_sphere, plane_at
 from modern.claims.sampled_sets import added_points
 from modern.claims.thesis.chapter4_examples import points_of_h_5, theorem_of
-from modern.edition.chapter4 import Point
 from modern.geometry.vectors import cross, dot, minus
 
 # An extreme is an axis and a sign: (0, 1) is the largest x, (0, -1) the smallest.
@@ -47,8 +46,7 @@ def coincidences(extremes: Sequence[Extreme] = EXTREMES) -> Iterator[tuple[froze
 
 
 def _lattice(side: int) -> list[Lattice]:
-    numbers = range(-side, side + 1)
-    return [(x, y, z) for x in numbers for y in numbers for z in numbers]
+    return [(x, y, z) for x, y, z in product(range(-side, side + 1), repeat=3)]
 
 
 def coplanar_extremes() -> Iterator[bool]:
@@ -61,10 +59,8 @@ def coplanar_extremes() -> Iterator[bool]:
     for division in coincidences():
         possible = [plane for plane in on_planes if {*division} <= {*plane}]
         points = [plane[block] for plane in possible[:1] for block in division]
-        largest = {(k, s): max(s * q[k] for q in (*points, *cube)) for k, s in EXTREMES}
-        attained = {
-            (k, sign): [p for p in (*points, *cube) if sign * p[k] == most] for (k, sign), most in largest.items()
-        }
+        largest = {(k, sign): max(sign * q[k] for q in (*points, *cube)) for k, sign in EXTREMES}
+        attained = {(k, s): [p for p in (*points, *cube) if s * p[k] == most] for (k, s), most in largest.items()}
         alone = [attained[e] == [p] for block, p in zip(division, points, strict=False) for e in block]
         yield len(alone) == len(EXTREMES) and all(alone)
 
@@ -121,37 +117,29 @@ def outside_several_planes() -> Iterator[bool]:
     yield {theorem.points[k].name for k in used[:8]} == {*points_of_h_5()}
     # The exact hull of the first eight points is computed without the procedure.
     judge = exact_hull([[*points[k]] for k in used[:8]])
-    planes = [judge.plane_of(facet) for facet in judge.facets]
+    planes = [[*map(Fraction, judge.plane_of(facet))] for facet in judge.facets]
     yield len(judge.vertices) == 8
-    yield [sum(_value(plane, theorem.points[k]) > 0 for plane in planes) for k in used[8:]] == [6]
-
-
-def _value(plane: Sequence[int | Fraction], p: Point) -> Fraction:
-    return sum((Fraction(a) * x for a, x in zip(plane, (*p.at, Fraction(1)), strict=True)), Fraction(0))
+    yield [sum(plane_at(plane, points[k]) > 0 for plane in planes) for k in used[8:]] == [6]
 
 
 @claim("thesis.107")
 def theorem_4_1() -> Check:
-    argument = (
+    proof = (
         "Two extremes of one coordinate that coincide make all points coplanar. For each other way in which the six "
-        "extremes can coincide there is a set that is not coplanar and has exactly these extremes in one plane"
     )
-    return proved(argument, coplanar_extremes(), "the extremes can be coplanar in all 87 ways to coincide")
+    proof += "extremes can coincide there is a set that is not coplanar and has exactly these extremes in one plane"
+    return proved(proof, coplanar_extremes(), "the extremes can be coplanar in all 87 ways to coincide")
 
 
 @claim("thesis.112")
 def theorem_4_2() -> Check:
-    argument = (
-        "The surface of Table 1 is a sphere without self-intersection on six extremes, and two faces do not support"
-    )
+    argument = "The surface of Table 1 is a sphere without self-intersection on six extremes, and two faces do not "
+    argument += "support"
     return proved(argument, table_1(), "the polyhedron of Table 1 is not convex")
 
 
 @claim("thesis.146", "thesis.148")
 def theorem_4_8() -> Check:
     argument = "The procedure makes H_5 of the nine points, and the last point is outside six of its planes"
-    return proved(
-        argument,
-        outside_several_planes(),
-        "eight points are the vertices of H_5, and the ninth is outside six of its planes",
-    )
+    message = "eight points are the vertices of H_5, and the ninth is outside six of its planes"
+    return proved(argument, outside_several_planes(), message)

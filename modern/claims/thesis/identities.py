@@ -13,7 +13,6 @@ from modern.claims.algebra import (
     dot,
     minus,
     point,
-    polynomial,
     positive,
     term,
     total,
@@ -23,19 +22,13 @@ from modern.claims.algebra import (
 )
 from modern.claims.evidence import Check, claim
 from modern.claims.sampled_sets import counterexample_points
-from modern.claims.thesis.chapter3_equations import plane_as_printed
-from modern.claims.thesis.proofs import theorem_4_3
-
-P, Q, X = point("p", 3), point("q", 3), point("x", 3)
+from modern.claims.thesis.chapter3_equations import plane_as_printed, with_0
+from modern.claims.thesis.proofs import P, Q, X, printed_v, theorem_4_3
 
 
 def _plane(p: Point, q: Point, r: Point) -> tuple[Polynomial, ...]:
     """Return A, B, C and D of the plane through three points as (3.4) prints them."""
     return plane_as_printed(p, q, r)  # type: ignore[arg-type,return-value]
-
-
-def _with_0(p: Point, axis: int) -> Point:
-    return tuple(polynomial(0) if k == axis else number for k, number in enumerate(p))
 
 
 def _all_zero(says: str, values: Iterable[Polynomial]) -> tuple[Step, ...]:
@@ -61,10 +54,7 @@ def one_or_two_points() -> Proof:
         {"distinct": positive(dot(way, way)), "weight": positive(weight)}
         | {axis: zero(weight * d) for axis, d in zip("xyz", way, strict=True)},
         IMPOSSIBLE,
-        (
-            term("weight weight distinct"),
-            *(term(axis, -weight * d) for axis, d in zip("xyz", way, strict=True)),
-        ),
+        (term("weight weight distinct"), *(term(axis, -weight * d) for axis, d in zip("xyz", way, strict=True))),
     )
     return Proof(
         "all points of a set of one or two distinct points are vertices",
@@ -114,7 +104,7 @@ def equations_of_line() -> Proof:
 
 
 def coordinate_planes() -> Proof:
-    planes = [_plane(_with_0(P, axis), _with_0(Q, axis), _with_0(X, axis)) for axis in range(3)]
+    planes = [_plane(*(with_0(p, axis) for p in (P, Q, X))) for axis in range(3)]
     others = [c for axis, plane in enumerate(planes) for k, c in enumerate(plane) if k != axis]
     return Proof(
         "the equation of a coordinate plane has one nonzero coefficient, and its constant term is 0",
@@ -138,7 +128,7 @@ def perpendicular_projection() -> Proof:
 
 
 def projection_along_axis() -> Proof:
-    ways = [(minus(P, _with_0(P, axis)), _with_0(Q, axis)) for axis in range(3)]
+    ways = [(minus(P, with_0(P, axis)), with_0(Q, axis)) for axis in range(3)]
     return Proof(
         "setting a coordinate to 0 projects a point to a coordinate plane",
         "The way from the foot to the point is perpendicular to every vector of the coordinate plane.",
@@ -159,9 +149,9 @@ def coordinates_of_figure_3() -> Proof:
         "run clockwise, the change of coordinates is a reflection as well as a movement.",
         (
             *_all_zero("P_3 is the origin", moved["r"]),
-            *_all_zero("P_1 and P_2 have the same x", [moved["p"][0] - moved["q"][0]]),
-            *_all_zero("y_2 - y_1 is a square", [moved["q"][1] - moved["p"][1] - dot(way, way)]),
-            *_all_zero("distances are kept", [dot(image, image) - dot(way, way) * dot(original, original)]),
+            Step("P_1 and P_2 have the same x", {}, zero(moved["p"][0] - moved["q"][0])),
+            Step("y_2 - y_1 is a square", {}, zero(moved["q"][1] - moved["p"][1] - dot(way, way))),
+            Step("distances are kept", {}, zero(dot(image, image) - dot(way, way) * dot(original, original))),
         ),
     )
 
@@ -219,29 +209,17 @@ def sum_of_page_46() -> Check:
     return proof.check().misprinted(differ, "three terms have x_b y_a; in four, lambda and 1 - lambda are exchanged")
 
 
-def _v(x: Point, i: Point) -> Polynomial:
-    """Return V, by which chapter 3 compares distances from a line, with two points in place of the one in the formula.
-
-    V is a sum of three squares of differences of two products.  The first products contain the point ``x``, and the
-    second products the point ``i``.
-    """
-    u, w, first = minus(Q, P), minus(Q, i), minus(Q, x)
-    rows = (first[1] * u[2] - w[2] * u[1], first[2] * u[0] - w[0] * u[2], first[0] * u[1] - w[1] * u[0])
-    return dot(rows, rows)
-
-
 @claim("thesis.50")
 def display_of_page_14() -> Check:
-    names = ("p", "q", "x")
-    at = dict(zip(names, counterexample_points("v_as_our_text.csv"), strict=True))
-    values = {f"{name}_{axis}": c for name in names for axis, c in zip("xyz", at[name], strict=True)}
-    is_wrong = _v(X, X).at(values) == 0 != _v(P, X).at(values)
+    at = zip("pqx", counterexample_points("v_as_our_text.csv"), strict=True)
+    values = {f"{name}_{axis}": c for name, p in at for axis, c in zip("xyz", p, strict=True)}
+    is_wrong = printed_v(X, X).at(values) == 0 != printed_v(P, X).at(values)
     return theorem_4_3().check().misprinted(is_wrong, "the index i in the first factor of each product")
 
 
 @claim("thesis.287")
 def display_of_page_41() -> Check:
-    is_wrong = not _v(P, P).terms
+    is_wrong = not printed_v(P, P).terms
     return theorem_4_3().check().misprinted(is_wrong, "i for 1 in the differences from the point i")
 
 
@@ -264,5 +242,5 @@ def determinants_of_page_41() -> Check:
 def displays_of_page_42() -> Check:
     (_, ux, uy, uz), (_, wy, _) = (0, *minus(Q, P)), minus(Q, X)
     as_text = (wy * uz - uz * uy) * (wy * uz - uz * uy) + 2 * (ux * uy - uy * uz) * (ux * uy - uy * uz)
-    is_wrong = (as_text - _v(X, X)).terms
+    is_wrong = (as_text - printed_v(X, X)).terms
     return theorem_4_3().check().misprinted(is_wrong, "three brackets with the letters and indices of V")

@@ -12,10 +12,10 @@ from collections.abc import Callable, Iterator
 
 from modern.claims.algebra import (
     IMPOSSIBLE,
+    Point,
     Polynomial,
     Proof,
     Step,
-    Term,
     bracket,
     combination_satisfies,
     dot,
@@ -32,17 +32,28 @@ from modern.claims.algebra import (
 )
 from modern.claims.evidence import Check, claim
 
+P, Q, X = point("p", 3), point("q", 3), point("x", 3)
+
+
+def printed_v(x: Point, i: Point) -> Polynomial:
+    """Return V, by which chapter 3 compares distances from the line P Q, with two points in place of the one printed.
+
+    V is a sum of three squares of differences of two products.  The first products contain the point ``x``, and the
+    second products the point ``i``.
+    """
+    u, w, first = minus(Q, P), minus(Q, i), minus(Q, x)
+    rows = (first[1] * u[2] - w[2] * u[1], first[2] * u[0] - w[0] * u[2], first[0] * u[1] - w[1] * u[0])
+    return dot(rows, rows)
+
 
 def theorem_4_3() -> Proof:
-    p, q, x = point("p", 3), point("q", 3), point("x", 3)
     (t,) = variables("t")
-    u, w = minus(q, p), minus(q, x)
-    (ux, uy, uz), (wx, wy, wz) = u, w
-    # Page 42 defines V by differences of coordinates between the point and P2.
-    rows = (wy * uz - wz * uy, wz * ux - wx * uz, wx * uy - wy * ux)
-    v, square, along = dot(rows, rows), dot(u, u), dot(u, w)
-    to_line = tuple(a - t * b for a, b in zip(w, u, strict=True))
-    foot = along - t * square
+    ux, uy, uz = u = minus(Q, P)
+    square = dot(u, u)
+    to_line = tuple(a - t * b for a, b in zip(minus(Q, X), u, strict=True))
+    # The square of the distance of X from a point of the line, times D^2, less V; and the equation of the foot.
+    excess, foot = square * dot(to_line, to_line) - printed_v(X, X), dot(u, to_line)
+    by_foot = term("t", foot)
     d_k, d_j, v_k, v_j, dd = variables("d_k^2 d_j^2 V_k V_j D^2")
     # Page 42: the direction cosines times e D are the differences of the coordinates.
     cosines, (d,) = point("lambda", 3), variables("D")
@@ -55,7 +66,7 @@ def theorem_4_3() -> Proof:
         "1, and dividing by D^2 keeps the order.",
         (
             *(
-                Step("D^2 > 0", {"differ": positive(a * a)}, positive(square), _sum("differ", (b, c)))
+                Step("D^2 > 0", {"a": positive(a * a)}, positive(square), (term("a"), term("", b), term("", c)))
                 for a, b, c in ((ux, uy, uz), (uy, uz, ux), (uz, ux, uy))
             ),
             *(
@@ -72,18 +83,8 @@ def theorem_4_3() -> Proof:
                 )
                 for e, values in scaled.items()
             ),
-            Step(
-                "the square of no distance is less than V / D^2",
-                {},
-                not_negative(square * dot(to_line, to_line) - v),
-                (term("", foot),),
-            ),
-            Step(
-                "the square of the distance of the foot is V / D^2",
-                {"foot": zero(foot)},
-                zero(square * dot(to_line, to_line) - v),
-                (term("foot", foot),),
-            ),
+            Step("the square of no distance is less than V / D^2", {}, not_negative(excess), (term("", foot),)),
+            Step("the square of the distance of the foot is V / D^2", {"t": zero(foot)}, zero(excess), (by_foot,)),
             Step(
                 "the distances have the order of V",
                 {"k": zero(d_k * dd - v_k), "j": zero(d_j * dd - v_j), "V": not_negative(v_k - v_j), "D": positive(dd)},
@@ -93,10 +94,6 @@ def theorem_4_3() -> Proof:
             ),
         ),
     )
-
-
-def _sum(name: str, squares: tuple[Polynomial, ...]) -> tuple[Term, ...]:
-    return (term(name), *(term("", factor) for factor in squares))
 
 
 def theorem_4_4() -> Proof:
@@ -110,34 +107,15 @@ def theorem_4_4() -> Proof:
     for axis in range(3):
         i, j = (n for n in range(3) if n != axis)
         lost = normal[axis]
-        plane = {"tilted": positive(lost * lost), "a": zero(f_a), "b": zero(f_b)}
-        steps += [
-            Step(
-                "a combination in the projection is a combination in the plane",
-                {**plane, "k": zero(f_k), "first": zero(mixed[i]), "second": zero(mixed[j])},
-                zero(mixed[axis]),
-                (
-                    term("k", lost),
-                    term("a", lost * (share - 1)),
-                    term("b", -lost * share),
-                    term("first", -lost * normal[i]),
-                    term("second", -lost * normal[j]),
-                ),
-                ("tilted",),
-            ),
-            Step(
-                "points with the same projection are equal",
-                {**plane, "first": zero(apart[i]), "second": zero(apart[j])},
-                zero(apart[axis]),
-                (
-                    term("a", lost),
-                    term("b", -lost),
-                    term("first", -lost * normal[i]),
-                    term("second", -lost * normal[j]),
-                ),
-                ("tilted",),
-            ),
-        ]
+        of_plane = {"tilted": positive(lost * lost), "k": zero(f_k), "a": zero(f_a), "b": zero(f_b)}
+        lifted = (term("k", lost), term("a", lost * (share - 1)), term("b", -lost * share))
+        of_projection = (term("first", -lost * normal[i]), term("second", -lost * normal[j]))
+        for says, way, terms in (
+            ("a combination in the projection is a combination in the plane", mixed, lifted),
+            ("points with the same projection are equal", apart, (term("a", lost), term("b", -lost))),
+        ):
+            hypotheses = {**of_plane, "first": zero(way[i]), "second": zero(way[j])}
+            steps.append(Step(says, hypotheses, zero(way[axis]), (*terms, *of_projection), ("tilted",)))
     return Proof(
         "if the plane of the points is not parallel to an axis, leaving out that coordinate keeps the vertices",
         "A vertex is a point that is not between two others of the hull. Leaving out a coordinate maps points between "
@@ -275,7 +253,6 @@ def theorem_4_7() -> Proof:
 
 def theorem_4_5() -> Proof:
     a, b, c, d, p, v, x = (point(name, 2) for name in "abcdpvx")
-    outer = positive(-bracket(a, b, p))
     weights = bracket(p, b, x), bracket(a, p, x), -bracket(a, b, x)
     area = -bracket(a, b, p)
     return Proof(
@@ -297,31 +274,21 @@ def theorem_4_5() -> Proof:
                 for k in (0, 1)
             ),
             Step("the weights add up to the area", {}, zero(area - total(weights))),
-            Step(
-                "a vertex satisfies the new line a p",
-                {
-                    "cab": positive(bracket(c, a, b)),
-                    "cap": not_negative(bracket(c, a, p)),
-                    "outer": outer,
-                    "cav": not_negative(bracket(c, a, v)),
-                    "abv": not_negative(bracket(a, b, v)),
-                },
-                not_negative(bracket(a, p, v)),
-                (term("cap abv"), term("outer cav")),
-                ("cab",),
-            ),
-            Step(
-                "a vertex satisfies the new line p b",
-                {
-                    "abd": positive(bracket(a, b, d)),
-                    "bdp": not_negative(bracket(b, d, p)),
-                    "outer": outer,
-                    "bdv": not_negative(bracket(b, d, v)),
-                    "abv": not_negative(bracket(a, b, v)),
-                },
-                not_negative(bracket(p, b, v)),
-                (term("bdp abv"), term("outer bdv")),
-                ("abd",),
+            *(
+                Step(
+                    f"a vertex satisfies the new line {name}",
+                    {
+                        "corner": positive(bracket(*corner)),
+                        "p": not_negative(bracket(*edge, p)),
+                        "outer": positive(area),
+                        "v": not_negative(bracket(*edge, v)),
+                        "abv": not_negative(bracket(a, b, v)),
+                    },
+                    not_negative(bracket(*line, v)),
+                    (term("p abv"), term("outer v")),
+                    ("corner",),
+                )
+                for name, corner, edge, line in (("a p", (c, a, b), (c, a), (a, p)), ("p b", (a, b, d), (b, d), (p, b)))
             ),
         ),
     )

@@ -92,7 +92,7 @@ BY_HAND: dict[str, tuple[str, Callable[[Any], object]]] = {
     "thesis.261": ("programs", _listing_with("POINTS THAT ARE NOT VERTICES", "")),
     "thesis.262": ("programs", _listing_with("INSIDE PLANES", "PLANES")),
     "thesis.263": ("programs", _compiled_with("INSID=2", "INSID=1")),
-    "thesis.269": ("sampled_sets", lambda original: lambda *size: [*map(_with_idle_stage, original(*size))]),
+    "thesis.269": ("flat_and_spatial_sets", lambda original: lambda size: [*map(_with_idle_stage, original(size))]),
     "thesis.273": ("coordinate_planes", lambda _: _failing_proof),
     "yau-srihari.85": ("hull_of", lambda original: lambda solid: _edges_as_entered(original(solid))),
 }
