@@ -225,7 +225,7 @@ def write_e(
 
 
 def write_exponent(columns: MutableSequence[int], end: int, shown: int, minus: bool) -> None:
-    """Write the exponent E, sign and two digits into the last four columns of an E field."""
+    """Write an exponent into the last four columns of an E field: the letter E, a sign and two digits."""
     size = -shown if shown < 0 else shown
     columns[end - 4] = LETTER_E
     columns[end - 3] = MINUS if minus else PLUS

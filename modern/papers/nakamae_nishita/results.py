@@ -82,7 +82,7 @@ def _contour_sense() -> str:
     ):
         if sign(x * (a[1] - b[1]) - y * (a[0] - b[0])) == sign(index):
             return difference
-    raise AssertionError("expected one of two opposite products to have the sign of the index")
+    raise AssertionError("expected formula (6) to be positive for one of the two directions of the contour")
 
 
 def _row(letter: str, scene_drawing: Drawing) -> str:
