@@ -4,7 +4,9 @@ The half-balls are those of Table 5. The paper does not define how a half-ball i
 """
 
 from fractions import Fraction
-from itertools import chain, product
+from itertools import chain
+
+import numpy as np
 
 from modern.claims.evidence import Check, claim, exhausted, exhibited, refuted, searched, slip
 from modern.claims.hulls import exact_hull
@@ -12,7 +14,7 @@ from modern.claims.invariants import HalfBall, corrected_print, half_balls, may_
 from modern.claims.kovalevsky_schulz.polyhedra import hulls, polyhedron
 from modern.claims.published import PAPERS, results_of
 from modern.claims.sampled_sets import CASES, SETS, Point
-from modern.digital.solids import Volume, half_ball, listed
+from modern.digital.solids import Volume, as_volume, half_ball
 from modern.geometry.vectors import dot, minus
 from modern.papers.kovalevsky_schulz import CENTRES, INVISIBLE, VERTICES, VISIBLE, local_corners, voxel_hull
 from modern.papers.kovalevsky_schulz.cells import CellList, cell_list_size, economical_size, triangulation_size
@@ -130,9 +132,9 @@ def diameter_8() -> Check:
 
 def _half_ball(diameter: int, *centre: int) -> Volume:
     """Return a half-ball; ``centre`` has twice the coordinates of its centre."""
-    sides = [range(-diameter // 2, diameter // 2 + 1)] * 2
-    around = product(*sides, range(centre[2], diameter // 2 + 1))
-    return listed([p for p in around if sum((2 * c - m) ** 2 for c, m in zip(p, centre, strict=True)) <= diameter**2])
+    axis = np.arange(-diameter // 2, diameter // 2 + 1)
+    x, y, z = ((2 * axis - c) ** 2 for c in centre)
+    return as_volume((x[:, None, None] + y[:, None] + z <= diameter**2)[..., axis >= centre[2]])
 
 
 @claim("kovalevsky-schulz.87", diameter=10)

@@ -3,10 +3,11 @@
 A *local corner* is a voxel (or a corner of voxels) that is not halfway between two of its neighbours in the same set.
 """
 
-from collections import Counter
 from collections.abc import Iterable
 from itertools import combinations, product
 from random import Random
+
+import numpy as np
 
 from modern.claims.evidence import Check, Generator, claim, exhausted, exhibited, refuted, search
 from modern.claims.hulls import convex_polyhedron, exact_hull
@@ -119,13 +120,13 @@ def printed_triangles() -> Check:
     # Each point in the plane of a face that counts as visible replaces the triangles of this plane. So at most one
     # point remains inside the face: the one that was inserted last.
     printed, most = numbers_of_ball()[3], list[int]()
-    settings = [local_corners(ball(32), of, n).tolist() for of in (VERTICES, CENTRES) for n in (6, 26)]
-    for corners in settings:
-        planes = [face.plane for face in exact_hull(corners).facets]
-        on_faces = [[k for k, (x, y, z) in enumerate(corners) if a * x + b * y + c * z == -d] for a, b, c, d in planes]
-        faces_at = Counter(k for on_face in on_faces for k in on_face)
-        replaced = sum(max(0, sum(faces_at[k] == 1 for k in on_face) - 1) for on_face in on_faces)
-        most.append(2 * (len(faces_at) - replaced) - 4)
+    for corners in (local_corners(ball(32), of, n) for of in (VERTICES, CENTRES) for n in (6, 26)):
+        planes = np.array([face.plane for face in exact_hull(corners.tolist()).facets])
+        # A table with a row for each corner and a column for each face.
+        on_face = corners @ planes[:, :3].T == -planes[:, 3]
+        on_one_face = on_face[on_face.sum(axis=1) == 1]
+        replaced = np.maximum(on_one_face.sum(axis=0) - 1, 0).sum()
+        most.append(2 * int(on_face.any(axis=1).sum() - replaced) - 4)
     message = "with visible coplanar faces, 6 or 26 neighbours, and corners or centres, the ball has at most "
     message += f"{max(most)} triangles in any order; printed: {printed}"
     computed = len(hull_of_ball(32, INVISIBLE).polyhedron.triangles.faces)
