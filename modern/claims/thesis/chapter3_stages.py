@@ -25,7 +25,6 @@ from modern.claims.sampled_sets import (
     sampled_sets,
 )
 from modern.geometry.hull import Stage
-from modern.geometry.vectors import cross, dot, minus
 
 
 @claim("thesis.2", "thesis.29", kind="nested", full=300)
@@ -225,25 +224,21 @@ def _vertex_when_added(sampled: SampledSet) -> Iterator[bool]:
         yield {stage.vertices.index(k) for k in record.added} <= {*judge.vertices}
 
 
-def _added_triangle(sampled: SampledSet) -> Iterator[bool]:
-    plane = sampled.judge.plane
-    assert plane is not None
-    a, b, c, d = plane
-    lattice = [(x, y, (-d - a * x - b * y) // c) for x, y in product(range(-5, 6, 2), repeat=2)]
-    for before, after, record, added in _steps(sampled):
-        triangle = [sampled.points[k] for k in (*before.defining[record.checked - 1], added)]
-        for point in lattice:
-            yield _contains(after, point) == (_contains(before, point) or _in_triangle(point, *triangle))
-
-
-def _added_tetrahedra(sampled: SampledSet) -> Iterator[bool]:
+def _added_bodies(sampled: SampledSet) -> Iterator[bool]:
     lattice: list[Point] = [(x, y, z) for x, y, z in product(range(-5, 6, 2), repeat=3)]
+    tops: list[Point] = []
+    if sampled.judge.plane:
+        a, b, c, d = map(int, sampled.judge.plane)
+        lattice = [(x, y, (-d - a * x - b * y) // c) for x, y in product(range(-5, 6, 2), repeat=2)]
+        # A triangle is the part in this plane of a tetrahedron with another corner outside the plane.
+        tops = [(0, 0, -d // c + 1)]
     for before, after, record, added in _steps(sampled):
-        apex = sampled.points[added]
-        visible = [k for k, plane in enumerate(before.equations) if plane_value(plane, apex) > 0]
-        yield record.checked - 1 in visible
-        # One tetrahedron stands on each equation that is positive at the new point.
-        corners = [[apex, *(sampled.points[k] for k in before.defining[at])] for at in visible]
+        apex, visible = sampled.points[added], [record.checked - 1]
+        if not sampled.flat:
+            visible = [k for k, plane in enumerate(before.equations) if plane_value(plane, apex) > 0]
+            yield record.checked - 1 in visible
+        # One triangle or tetrahedron stands on each equation that is positive at the new point.
+        corners = [[apex, *(sampled.points[k] for k in before.defining[at]), *tops] for at in visible]
         for point in lattice:
             is_in_either = _contains(before, point) or any(in_tetrahedron(point, four) for four in corners)
             yield _contains(after, point) == is_in_either
@@ -253,11 +248,6 @@ def in_tetrahedron(point: Point, corners: list[Point]) -> bool:
     """Return True if, for every face, the point is not on the opposite side from the remaining corner."""
     planes = [(plane_through(*corners[:k], *corners[k + 1 :]), corner) for k, corner in enumerate(corners)]
     return all(plane_value(plane, point) * plane_value(plane, corner) >= 0 for plane, corner in planes)
-
-
-def _in_triangle(point: Point, a: Point, b: Point, c: Point) -> bool:
-    normal = cross(minus(b, a), minus(c, a))
-    return all(dot(normal, cross(minus(q, p), minus(point, p))) >= 0 for p, q in ((a, b), (b, c), (c, a)))
 
 
 def _convexity(sampled: SampledSet) -> Iterator[bool]:
@@ -291,9 +281,9 @@ _PROPERTIES = {
     "renumbering": (_renumbering, "later lines move up by one number, and the two new lines are last"),
     "vertices_used": (_vertices_used, "all vertices of the last hull are points that the procedure has added"),
     "vertex_when_added": (_vertex_when_added, "each added point is a vertex of the hull of the points added so far"),
-    "added_triangle": (_added_triangle, "a lattice point is in H_k+1 exactly if it is in H_k or the added triangle"),
+    "added_triangle": (_added_bodies, "a lattice point is in H_k+1 exactly if it is in H_k or the added triangle"),
     "convexity": (_convexity, "if one plane is replaced, the body is convex exactly if no other plane is visible"),
-    "added_tetrahedra": (_added_tetrahedra, "a lattice point is in H_k+1 exactly if in H_k or an added tetrahedron"),
+    "added_tetrahedra": (_added_bodies, "a lattice point is in H_k+1 exactly if in H_k or an added tetrahedron"),
 }
 _FLAT = ("replaced_line", "renumbering", "two_new_lines", "added_triangle")
 _SPACE = ("convexity", "added_tetrahedra")

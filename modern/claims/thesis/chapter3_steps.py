@@ -141,10 +141,8 @@ def between_by_distances() -> Check:
         decided = all(min(amounts) * max(amounts) >= 0 for amounts in (first, second))
         between = mm if not any(first) else nn if not any(second) else i
         steps.append(decided and between == (1, 0))
-    argument = (
-        "In each of the six orders of the points, the two sums are 0, 2 u or 2 v. Here u and v are the distances of "
-        "the middle point from the others, which are positive because the points are distinct"
-    )
+    argument = "In each of the six orders of the points, the two sums are 0, 2 u or 2 v. Here u and v are the "
+    argument += "distances of the middle point from the others, which are positive because the points are distinct"
     return proved(argument, steps, "sums of distances tell which of three collinear points is between the others")
 
 

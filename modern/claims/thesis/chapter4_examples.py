@@ -58,7 +58,7 @@ def worked_example_checks(theorem: Theorem, load: Load = programs.program) -> Ma
 
 
 @cache
-def _computed(theorem: str) -> Mapping[str, Check]:
+def computed_checks(theorem: str) -> Mapping[str, Check]:
     return worked_example_checks(theorem_of(theorem))
 
 
@@ -80,7 +80,7 @@ def _computed(theorem: str) -> Mapping[str, Check]:
 @claim("thesis.149", theorem="4.8", claim="equations")
 @claim("thesis.151", theorem="4.8", claim="signs")
 def worked_example(theorem: str, claim: str) -> Check:
-    return _computed(theorem)[claim]
+    return computed_checks(theorem)[claim]
 
 
 # Each set in space has three to six distinct extreme points, all in one plane; its last point is not in this plane.

@@ -159,8 +159,7 @@ def entries_of_plane_table() -> int:
 
 def plane_through_c() -> Check:
     """Check that a plane through the inside point C ends a run with an error (KNOWN-FAULTS 3), though a hull exists."""
-    message = typed(run_of("throughc.deck"))
-    points = points_on(deck_of("throughc.deck"))
+    message, points = typed(run_of("throughc.deck")), points_on(deck_of("throughc.deck"))
     judge = exact_hull(points)
     passed = message.endswith("ERROR IN PROGRAM") and "P3-027" in convex_hull(points).corrected
     message = f"typed: {message}; the exact hull has {len(judge.vertices)} vertices and {len(judge.facets)} planes"

@@ -95,14 +95,14 @@ def errors_on_any_computer() -> Check:
 
 def _coefficients(points: tuple[Point, ...], name: str) -> list[Fraction]:
     arithmetic, rows = take(points, name)
-    coefficients = plane(*(tuple(rows[axis][k] for axis in range(3)) for k in range(3)))
+    coefficients = plane(*list(zip(*rows, strict=True))[:3])
     return [Fraction(arithmetic.exact(x, degree)) for x, degree in zip(coefficients, (2, 2, 2, 3), strict=True)]
 
 
 def _misses(points: tuple[Point, ...], name: str = "truncating") -> list[int]:
     """Return the indices of the points that, in an arithmetic, are not on the plane of the first three points."""
     arithmetic, rows = take(points, name)
-    all_points = [tuple(rows[axis][k] for axis in range(3)) for k in range(len(points))]
+    all_points = [*zip(*rows, strict=True)]
     equation = plane(*all_points[:3])
     return [k for k, point in enumerate(all_points) if not arithmetic.is_zero(at(equation, point))]
 
@@ -209,8 +209,8 @@ def interval_instead_of_rejection() -> Check:
 @claim("thesis.188")
 def value_against_distance() -> Check:
     csv_rows, _ = csv_points(counterexample("short_normal.csv"), "short_normal.csv")
-    p, q, r, x = (tuple(map(Fraction, map(str, point))) for point in csv_rows)
-    a, b, c, d = plane(p, q, r)  # type: ignore[arg-type]
+    *three, x = (tuple(map(Fraction, map(str, point))) for point in csv_rows)
+    a, b, c, d = plane(*three)  # type: ignore[arg-type]
     value = at((a, b, c, d), x)
     distance = value * value / (a * a + b * b + c * c)
     if distance != 1 or abs(value) != Fraction(1, 100):

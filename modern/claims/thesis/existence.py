@@ -124,11 +124,11 @@ def outside_several_planes() -> Iterator[bool]:
 
 @claim("thesis.107")
 def theorem_4_1() -> Check:
-    proof = (
+    argument = (
         "Two extremes of one coordinate that coincide make all points coplanar. For each other way in which the six "
+        "extremes can coincide there is a set that is not coplanar and has exactly these extremes in one plane"
     )
-    proof += "extremes can coincide there is a set that is not coplanar and has exactly these extremes in one plane"
-    return proved(proof, coplanar_extremes(), "the extremes can be coplanar in all 87 ways to coincide")
+    return proved(argument, coplanar_extremes(), "the extremes can be coplanar in all 87 ways to coincide")
 
 
 @claim("thesis.112")
