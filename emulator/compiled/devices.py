@@ -315,7 +315,7 @@ def put_typed(line: Row, length: int, marks: Marks, desk: Desk) -> int:
 
 
 def stamp(number: int, desk: Desk) -> None:
-    """Write a number to the log with STAMP digits."""
+    """Append a number to the log, with as many digits as the constant STAMP says."""
     used = desk.devices[USED]
     for k in range(STAMP):
         desk.log[used + STAMP - 1 - k] = DIGIT + number % 10

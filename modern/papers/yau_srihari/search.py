@@ -3,8 +3,9 @@
 Angles are compared exactly. The angle between two integer normals p and q has a greater cosine if the number
 (p . q) |p . q| / (q . q) is greater, because p, the normal of the known face, is the same in all comparisons.
 
-``Search`` follows the paper square by square, counts its steps and can apply statements as printed. ``Candidates``
-finds the same points in the same order by one pass over arrays of all points.
+``Search`` follows the paper square by square and counts the steps of its search. It can follow each statement of the
+paper as printed instead of as corrected. ``Candidates`` finds the same
+points in the same order by one pass over arrays of all points.
 """
 
 from collections.abc import Iterable, Iterator, Sequence

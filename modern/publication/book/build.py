@@ -93,9 +93,10 @@ def documents() -> dict[str, str]:
 
 
 def _subjects(texts: Mapping[str, str]) -> dict[str, str]:
-    """Return the entries of the book's index, each by its label in the glossary and by its name in lower case.
+    """Return the terms of the book's index by two keys: the label in the glossary, and the word in lower case.
 
-    A glossary term that occurs often has no entry by name, so only links to its label are indexed.
+    Both kinds of places in the text, links to a label and words, are indexed. A glossary term that occurs often is not
+    a key by its word, so that only links to its label are indexed.
     """
     terms = re.findall(r"^## (.+)$", texts[_GLOSSARY], re.MULTILINE)
     labels = [place for place in places(_GLOSSARY, texts[_GLOSSARY]) if place != label(_GLOSSARY)]
