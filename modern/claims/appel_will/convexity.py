@@ -66,11 +66,9 @@ def method_against_judge(cases: int = CASES, method: Method = CORRECTED) -> Chec
         for loop, ring in zip(hull.table.loops, hull.surfaces, strict=True):
             ends = [hull.edges[abs(entry) - 1][:: 1 if entry > 0 else -1] for entry in loop.entries]
             checks.append(all(ends[k - 1][1] == point == ends[k][0] for k, point in enumerate(ring)))
-    message = (
-        f"in {cases} sets, the loops are the convex faces of the exact hull and use each edge twice; the map lists"
-    )
-    message += " the common points of neighbouring lines: LC1 for a positive entry of the loop, LC2 for a negative one"
-    return searched(SETS[3], cases, checks, message)
+    message = "the loops are the convex faces of the exact hull and use each edge twice; the map lists the common "
+    message += "points of neighbouring lines: LC1 for a positive entry of the loop, LC2 for a negative one"
+    return searched(SETS[3], cases, checks, f"in {cases} sets, {message}")
 
 
 @claim("appel-will.9", full=400)

@@ -7,8 +7,7 @@ axis (a 0-cell), and an odd one, 2 k + 1, is the interval from k to k + 1 (a 1-c
 
 from collections.abc import Iterable, Iterator
 from functools import cache
-from itertools import chain, combinations, combinations_with_replacement, groupby, product
-from operator import itemgetter
+from itertools import combinations, combinations_with_replacement, product
 
 from modern.claims.evidence import Check, claim, exhausted, exhibited, search
 from modern.claims.hulls import exact_hull
@@ -182,15 +181,14 @@ def subcomplex(cells: Complex, subset: set[int]) -> Complex:
 
 @claim("kovalevsky-schulz.136")
 def subcomplexes() -> Check:
-    outcomes, with_dimensions = [], {d: [*group] for d, group in groupby(complexes(3), key=itemgetter(0))}
-    for dimensions, relation in chain(*with_dimensions.values()):
+    outcomes, all_complexes = [], {*complexes(3)}
+    for dimensions, relation in all_complexes:
         for size in range(len(dimensions) + 1):
             for chosen in combinations(range(len(dimensions)), size):
                 # By Definition SC, a subcomplex is a complex with the same dimensions and the restricted relation.
                 restricted = {(i, j) for i, j in product(range(size), repeat=2) if (chosen[i], chosen[j]) in relation}
-                same_cells = with_dimensions[tuple(dimensions[cell] for cell in chosen)]
-                found = [c for c in same_cells if c[1] == restricted]
-                outcomes.append(found == [subcomplex((dimensions, relation), {*chosen})])
+                part = tuple(dimensions[cell] for cell in chosen), frozenset(restricted)
+                outcomes.append(part in all_complexes and subcomplex((dimensions, relation), {*chosen}) == part)
     message = f"each of {len(outcomes)} sets of cells has one subcomplex: the restricted relation is transitive"
     return exhausted("sets of cells of the 3-complexes with up to 4 cells", outcomes, message)
 

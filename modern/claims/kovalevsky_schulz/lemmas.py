@@ -3,12 +3,11 @@
 from collections.abc import Sequence
 from fractions import Fraction
 from itertools import combinations, product
-from random import Random
 
 from modern.claims.evidence import Check, Generator, claim, refuted, search, searched
 from modern.claims.hulls import exact_hull
 from modern.claims.kovalevsky_schulz.polyhedra import OUTSIDE, growing_polyhedra, horizon, hulls, polyhedron
-from modern.claims.kovalevsky_schulz.proofs import has_zero_coefficient, lemma_be, lemma_ch, lemma_lz
+from modern.claims.kovalevsky_schulz.proofs import lemma_be, lemma_ch, lemma_lz
 from modern.claims.kovalevsky_schulz.voxels import KINDS, SOLIDS, Voxels, local, points_of
 from modern.claims.sampled_sets import (
     CASES,
@@ -62,7 +61,10 @@ def proof_of_the_algorithm(cases: int = CASES) -> Check:
     message = f"{sum(lemmas)} lemmas are proved; {construction.message}"
     check = searched(SETS[3], cases, [*lemmas, construction.holds], message)
     case = f"the printed proof, in which {len(false)} statements are false and no face is coplanar with the new point"
-    return check.unless(not any(statement.holds for statement in false) and has_zero_coefficient(), case)
+    # A point beyond the edge of the cube with corners from 0 to 2 that is between the faces x = 2 and z = 0.
+    visible, hidden, way = (1, 0, 0), (0, 0, -1), minus((4, 1, 0), (2, 1, 0))
+    has_zero_coefficient = -dot(hidden, way) == 0 < dot(visible, way)
+    return check.unless(not any(statement.holds for statement in false) and has_zero_coefficient, case)
 
 
 def _planes_at(edge: tuple[int, int], judge: ExactHull, new: Point) -> list[Plane]:
@@ -76,10 +78,6 @@ def _new_normal(edge: tuple[int, int], points: Sequence[Point], new: Point) -> P
     return next(f.plane[:3] for f in exact_hull([*points, new]).facets if corners <= {*f.polygon})
 
 
-def _draw_with_outside(random: Random) -> tuple[Point, ...]:
-    return (*SETS[3].draw(random), random.choice(OUTSIDE))
-
-
 def _is_general(points: tuple[Point, ...]) -> bool:
     """Return True if no four points are coplanar and the last one is outside the hull of the others."""
     if any(plane_value(plane_through(p, q, r), s) == 0 for p, q, r, s in combinations(points, 4)):
@@ -89,7 +87,10 @@ def _is_general(points: tuple[Point, ...]) -> bool:
 
 
 NO_FOUR_COPLANAR: Generator[tuple[Point, ...]] = Generator(
-    f"{SETS[3].name}, and a point outside their hull, no four of them coplanar", 14, _draw_with_outside, _is_general
+    f"{SETS[3].name}, and a point outside their hull, no four of them coplanar",
+    14,
+    lambda random: (*SETS[3].draw(random), random.choice(OUTSIDE)),
+    _is_general,
 )
 
 

