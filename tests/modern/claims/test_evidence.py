@@ -20,27 +20,20 @@ from modern.claims.evidence import (
     slip,
 )
 
-PAIRS: Generator[tuple[int, ...]] = Generator(
-    "pairs", 7, lambda random: (random.randint(-50, 50), random.randint(0, 9))
-)
+PAIRS: Generator[tuple[int, ...]] = Generator("pairs", 7, lambda r: (r.randint(-50, 50), r.randint(0, 9)))
 
 
 def test_grade_and_number_of_cases_follow_from_the_constructor() -> None:
     checks = [proved("p", [1, 1], ""), exhausted("d", [1] * 3, ""), searched(PAIRS, 5, [1], ""), exhibited(1, "")]
-    assert [(check.evidence.grade, check.evidence.cases) for check in checks] == [
-        ("proved", 2),
-        ("exhausted", 3),
-        ("searched", 5),
-        ("exhibited", 1),
-    ]
+    grades = [(check.evidence.grade, check.evidence.cases) for check in checks]
+    assert grades == [("proved", 2), ("exhausted", 3), ("searched", 5), ("exhibited", 1)]
     assert all(check.holds for check in checks)
     assert checks[2].evidence.describe() == "searched: pairs, 5 cases, seed 7"
 
 
 def test_outcomes_conditions_and_slips_decide_a_check() -> None:
-    assert not any(
-        check.holds for check in (proved("p", [], ""), exhausted("d", [1, 0], ""), searched(PAIRS, 5, [], ""))
-    )
+    for check in (proved("p", [], ""), exhausted("d", [1, 0], ""), searched(PAIRS, 5, [], "")):
+        assert not check.holds
     assert exhibited(1, "").unless(True, "a case").evidence.violation == "a case"
     assert exhibited(1, "").unless(False, "a case").evidence.violation == ""
     assert slip(False, True, "z", "").evidence.correction == "z"

@@ -22,11 +22,10 @@ def test_every_search_has_a_result_that_is_the_verdict_of_its_rows() -> None:
 
 
 def test_searches_are_outstanding_only_without_a_current_result() -> None:
-    assert list(full.outstanding({result.check: result for result in full.recorded()})) == []
     results = {result.check: result for result in full.recorded()}
+    assert list(full.outstanding(results)) == []
     name = next(iter(results))
-    changed = {name: replace(results[name], sources=""), **{k: v for k, v in results.items() if k != name}}
-    assert name in full.outstanding(changed)
+    assert name in full.outstanding({**results, name: replace(results[name], sources="")})
     assert name in full.outstanding({})
     used = full._used("modern.claims.thesis.chapter5", "procedure_in_exact_arithmetic")
     assert ("modern.claims.thesis.chapter7", "vertices_of") in used
