@@ -205,6 +205,10 @@ class Proof:
     argument: str
     steps: tuple[Step, ...]
 
+    @classmethod
+    def of(cls, theorem: str, argument: str, *steps: Step) -> Proof:
+        return cls(theorem, argument, steps)
+
     def check(self, conclusion: str = "") -> Check:
         """Return the check of the theorem, or of a conclusion that the argument contains."""
         return proved(self.argument, (step.is_valid() for step in self.steps), conclusion or self.theorem)

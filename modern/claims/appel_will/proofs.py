@@ -27,16 +27,14 @@ def inside_triangle() -> Proof:
     a, b, c, p = (point(name, 2) for name in "abcp")
     area, weights = bracket(a, b, c), (bracket(b, c, p), bracket(c, a, p), bracket(a, b, p))
     combined = [dot(weights, [corner[k] for corner in (a, b, c)]) for k in (0, 1)]
-    return Proof(
+    return Proof.of(
         "a point inside a triangle is a combination of the corners with positive weights, whose signs are the senses "
         "of the sides",
         "The senses about the sides, divided by that of the corners, are the weights of the point as a combination of "
         "the corners. They are unique because the corners are not collinear. A point is inside exactly if all weights "
         "are positive.",
-        (
-            *(Step("the point is the combination", {}, zero(area * p[k] - combined[k])) for k in (0, 1)),
-            Step("the weights have the sum 1", {}, zero(area - total(weights))),
-        ),
+        *(Step("the point is the combination", {}, zero(area * p[k] - combined[k])) for k in (0, 1)),
+        Step("the weights have the sum 1", {}, zero(area - total(weights))),
     )
 
 
@@ -52,15 +50,13 @@ def triangle_area() -> Proof:
         # Each row of the determinant has the coordinates x and y of a point, and 1.
         return a[0] * (b[1] - c[1]) - a[1] * (b[0] - c[0]) + (b[0] * c[1] - b[1] * c[0])
 
-    return Proof(
+    return Proof.of(
         "half of the determinant is the area, positive if counterclockwise, negative if clockwise, 0 if collinear",
         "Let the vector u be the first side. The third corner is the first corner plus a multiple of u plus h times "
         "the vector u turned left by 90 degrees. The determinant equals h times the square of the length of u. This "
         "product is the base times the signed height, because the turned vector is as long as u.",
-        (
-            Step("the determinant is base times height", {}, zero(determinant(p, q, r) - height * dot(u, u))),
-            Step("the determinant is 0 if the first two corners coincide", {}, zero(determinant(p, p, r))),
-        ),
+        Step("the determinant is base times height", {}, zero(determinant(p, q, r) - height * dot(u, u))),
+        Step("the determinant is 0 if the first two corners coincide", {}, zero(determinant(p, p, r))),
     )
 
 
@@ -74,18 +70,16 @@ def lines_and_planes() -> Proof:
     way = minus(along, p)
     value_terms = term("plane"), term("unit", t)
     ends = [(axis, a + length * c - b, length * c - (b - a)) for axis, a, b, c in zip("xyz", p, q, n, strict=True)]
-    return Proof(
+    return Proof.of(
         "t is the distance from the first point of a line with a unit direction, and a x + b y + c z + d is the "
         "distance from a plane with the unit normal (a, b, c)",
         "The squares of a, b and c have the sum 1, because the square of the length is that of the differences. The "
         "direction times the length leads from the start to the end, and times t to the point at the distance t. The "
         "equation of a plane is 0 at its points, and t at the distance t along its normal.",
-        (
-            *(Step("t = l is the end", {axis: zero(printed)}, zero(end), (term(axis),)) for axis, end, printed in ends),
-            Step("t is the distance", unit, zero(dot(way, way) - t * t), (term("unit", t * t),)),
-            Step("a plane contains its points", line, zero(dot(n, q) - dot(n, p)), (term("line"),)),
-            Step("the value is the distance", unit | plane, zero(dot(n, along) + d - t), value_terms),
-        ),
+        *(Step("t = l is the end", {axis: zero(printed)}, zero(end), (term(axis),)) for axis, end, printed in ends),
+        Step("t is the distance", unit, zero(dot(way, way) - t * t), (term("unit", t * t),)),
+        Step("a plane contains its points", line, zero(dot(n, q) - dot(n, p)), (term("line"),)),
+        Step("the value is the distance", unit | plane, zero(dot(n, along) + d - t), value_terms),
     )
 
 
@@ -96,7 +90,7 @@ def product_of_lines() -> Proof:
     square = dot(cross(u, v), cross(u, v)) + dot(u, v) * dot(u, v) - dot(u, u) * dot(v, v)
     steps.append(Step("its square is that of the lines less that of their dot product", {}, zero(square)))
     argument = "The lines span the surface. By Lagrange's identity their product is 0 only for parallel lines."
-    return Proof("the product of two lines of a surface is normal to it", argument, tuple(steps))
+    return Proof.of("the product of two lines of a surface is normal to it", argument, *steps)
 
 
 @proves("nakamae-nishita.34")
@@ -106,11 +100,11 @@ def equal_images() -> Proof:
     hypotheses = {"depth": positive(q[2]), "x": zero(normal[1]), "y": zero(normal[0])}
     terms = term("x", -q[1]), term("y", -q[0])
     step = Step("the points are collinear", hypotheses, zero(normal[2]), terms, ("depth",))
-    return Proof(
+    return Proof.of(
         "points with the same image are on one line through the eye",
         "If the images x / z and y / z of two points agree, two components of the points' cross product are 0. Then "
         "the third one is 0 too, and the two points and the eye, which is the origin, are on one line.",
-        (step,),
+        step,
     )
 
 
@@ -122,32 +116,32 @@ def fewer_pairs() -> Proof:
     # The difference is m^3 + 12 m^2 + 41 m + 30.
     squares = (term("", 3 * m), term("", m), term("", m), term("", m), term("", 5), term("", 2), term(""))
     terms = (term("m m m"), term("m", 6), term("m", 2), term("m"), *squares)
-    return Proof(
+    return Proof.of(
         "six or more points have fewer pairs than triples",
         "Six times the number of triples minus that of pairs is n (n - 1) (n - 5), where n = 6 + m.",
-        (Step("the difference is positive", {"m": not_negative(m)}, positive(difference), terms),),
+        Step("the difference is positive", {"m": not_negative(m)}, positive(difference), terms),
     )
 
 
 @proves("appel-will.27")
 @proves("appel-will.79", conclusion="the hull stays the same if points inside it are added")
 def points_of_hull() -> Proof:
-    return Proof(
+    return Proof.of(
         "a convex combination of points is on the inner side of every plane that has all these points on this side",
         "The points of the hull are the combinations of the vertices, and all vertices are on the inner side of each "
         "plane. So the object determines its hull, and the hull stays the same if any of the infinitely many points "
         "inside it is added to the object, for example as the apex of a pit.",
-        combination_satisfies(),
+        *combination_satisfies(),
     )
 
 
 @proves("appel-will.31")
 def projections() -> Proof:
-    return Proof(
+    return Proof.of(
         "the image of the hull of points is the hull of their images",
         "The coordinates of an image are linear functions of the point. The images of all combinations of the vertices "
         "are therefore all combinations of the images of the vertices, which form a convex polygon.",
-        combination_satisfies()[:1],
+        *combination_satisfies()[:1],
     )
 
 
@@ -157,17 +151,15 @@ def three_planes() -> Proof:
     (side,) = variables("side")
     volume, square = dot(u, cross(v, w)), dot(u, u)
     opposite = {"u": positive(side), "-u": positive(-side)}
-    return Proof(
+    return Proof.of(
         "if three planes meet at a vertex of the hull, all lines there are outside corners",
         "The object near the vertex lies in an open half-space. Three planes divide space into eight cones of edges "
         "u or -u, v or -v, w or -w, and the half-space contains u or -u but not both. So the object fills one cone, "
         "say of u, v and w, and [u v w] is positive. Its inward normals at u are w x u and u x v. Their triple product "
         "with u is the square of u times [u v w], so u is an outside corner, and so are v and w. Fewer planes, or "
         "three through one line, make no vertex.",
-        (
-            Step("no half-space contains u and -u", opposite, IMPOSSIBLE, (term("u"), term("-u"))),
-            Step("it is the square times [u v w]", {}, zero(dot(u, cross(cross(w, u), cross(u, v))) - square * volume)),
-        ),
+        Step("no half-space contains u and -u", opposite, IMPOSSIBLE, (term("u"), term("-u"))),
+        Step("it is the square times [u v w]", {}, zero(dot(u, cross(cross(w, u), cross(u, v))) - square * volume)),
     )
 
 
@@ -176,13 +168,13 @@ def least_surface() -> Proof:
     difference = dot(n, n) * dot(m, m) - dot(n, m) * dot(n, m)
     terms = tuple(term("", component) for component in cross(n, m))
     step = Step("the square of n m is at most that of n times that of m", {}, not_negative(difference), terms)
-    return Proof(
+    return Proof.of(
         "the hull has the least surface of all convex bodies that contain the points",
         "Each plane of the hull cuts a part off such a body, or nothing. The surface of this part, projected onto the "
         "plane, covers the section that replaces it. A projection does not enlarge areas, because it multiplies them "
         "by the cosine of the angle between the normals n and m, whose square is at most 1. So no cut enlarges the "
         "surface of the body, and after all cuts the hull remains.",
-        (step,),
+        step,
     )
 
 
@@ -190,28 +182,26 @@ def least_surface() -> Proof:
 def inside_corner() -> Proof:
     i, k, second = (point(name, 3) for name in "ikl")
     triple = dot(i, cross(k, second))
-    return Proof(
+    return Proof.of(
         "the triple product is negative exactly at inside corners, if the line runs counterclockwise on the first "
         "surface; otherwise it has the opposite sign",
         "Seen from outside, the first surface, with the inward normal K, is to the left of the line I, and the second, "
         "with the normal L, to its right. So the second surface extends from the line in the direction L x I. Its "
         "product with K is negative exactly if the second surface is on the outer side of the first, where the angle "
         "inside the object exceeds 180 degrees. A reversed line runs counterclockwise on the other surface.",
-        (
-            Step("the product of K and L x I is [IKL]", {}, zero(dot(k, cross(second, i)) - triple)),
-            Step("[ILK] has the opposite sign", {}, zero(dot(i, cross(second, k)) + triple)),
-        ),
+        Step("the product of K and L x I is [IKL]", {}, zero(dot(k, cross(second, i)) - triple)),
+        Step("[ILK] has the opposite sign", {}, zero(dot(i, cross(second, k)) + triple)),
     )
 
 
 @proves("appel-will.73", "appel-will.74")
 def outside_corners() -> Proof:
-    return Proof(
+    return Proof.of(
         "a vertex of the hull is on at least three outside corners, and so no point on only one is such a vertex",
         "Some plane touches the object only at the vertex. Cut the object near it by a parallel plane. The hull "
         "of the section has at least three corners. By the step, the section is not concave at a corner of its hull, "
         "so that the line from the vertex to this corner is an outside corner of the object.",
-        concave_point().steps,
+        *concave_point().steps,
     )
 
 
@@ -220,9 +210,9 @@ def concave_point() -> Proof:
     first, second = variables("L_u L_v")
     hypotheses = {"u": positive(-first), "v": positive(-second), "opposite": positive(first + second)}
     terms = term("u"), term("v"), term("opposite")
-    return Proof(
+    return Proof.of(
         "a concave point of a surface is no vertex of the hull",
         "At a vertex of the hull some linear function L decreases along both sides u and v of the surface. At a "
         "concave point the surface contains points in the direction -u-v, along which L would have to decrease too.",
-        (Step("L cannot decrease along u, v and -u-v", hypotheses, IMPOSSIBLE, terms),),
+        Step("L cannot decrease along u, v and -u-v", hypotheses, IMPOSSIBLE, terms),
     )

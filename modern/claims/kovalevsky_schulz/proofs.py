@@ -23,10 +23,10 @@ from modern.claims.hulls import exact_hull
 def largest_of_part() -> Proof:
     h_c, h_v = variables("H_c H_v")
     signs, terms = {"c": not_negative(h_c), "v": positive(-h_v)}, (term("c"), term("v"))
-    return Proof(
+    return Proof.of(
         "the largest value of H in a part with H >= 0 is the largest in the whole set",
         "H is negative at the points outside the part, and not negative in the part, which is not empty.",
-        (Step("a point v that is not cut off has a smaller value of H", signs, positive(h_c - h_v), terms),),
+        Step("a point v that is not cut off has a smaller value of H", signs, positive(h_c - h_v), terms),
     )
 
 
@@ -35,45 +35,49 @@ def last_of_three_choices() -> Proof:
     way = minus(point("p", 3), point("q", 3))
     equal = {axis: zero(d) for axis, d in zip("xyz", way, strict=True)}
     terms = tuple(term(axis, d) for axis, d in zip("xyz", way, strict=True))
-    return Proof(
+    return Proof.of(
         "a single vector remains after the choices of the largest x, y and z",
         "A finite set that is not empty has a largest x, and so have the vectors chosen by it a largest y, and those "
         "chosen by both a largest z. Two vectors that remain have the same x, y and z, and so their distance is 0.",
-        (Step("the square of their distance is 0", equal, zero(dot(way, way)), terms),),
+        Step("the square of their distance is 0", equal, zero(dot(way, way)), terms),
     )
 
 
 @proves("kovalevsky-schulz.124")
 def largest_combination() -> Proof:
-    return Proof(
+    return Proof.of(
         "a point with the largest value of H is a combination only of points with this value",
         "H of a combination is the combination of the values of H. More than two points are combined one after the "
         "other, and only points with positive weights count.",
-        (largest_value(), combination_satisfies()[0]),
+        largest_value(),
+        combination_satisfies()[0],
     )
 
 
 @proves("kovalevsky-schulz.65")
 def lemma_lz() -> Proof:
-    return Proof(
+    return Proof.of(
         "a part of a finite set that a linear inequality cuts off contains a point that is no combination of others",
         "The part is not empty, so it contains all points with the largest value of the linear function H. Among them "
         "take those with the largest x, then the largest y, and then the largest z: one point c. If c is a "
         "combination of points of the set with positive weights, all of them have the H of c. Then they have its x, y "
         "and z, and so they are c. More than two points are combined one after the other.",
-        (*largest_of_part().steps, *last_of_three_choices().steps, *largest_combination().steps),
+        *largest_of_part().steps,
+        *last_of_three_choices().steps,
+        *largest_combination().steps,
     )
 
 
 @proves("kovalevsky-schulz.69")
 def lemma_ch() -> Proof:
-    return Proof(
+    return Proof.of(
         "a convex polyhedron that contains all local corners, and whose vertices are local corners, is the hull",
         "If a point of V is not in K, an inequality of K cuts it off. By lemma LZ the part cut off contains a point "
         "that is no combination, hence a local corner, but K contains these. So K contains V. Let K' be convex, "
         "contain V and have its vertices in K. By Minkowski's theorem a convex polyhedron consists of the combinations "
         "of its vertices. The vertices of K are in V, hence in K', and so K is in K'. In the same way K' is in K.",
-        (largest_value(), *combination_satisfies()),
+        largest_value(),
+        *combination_satisfies(),
     )
 
 
@@ -84,7 +88,7 @@ def lemma_ch() -> Proof:
 @proves("appel-will.19", conclusion="all vertices of the hull are vertices of the polyhedron")
 @proves("appel-will.41", "appel-will.133", conclusion="a point between two others is no vertex")
 def no_combination() -> Proof:
-    return Proof(
+    return Proof.of(
         "a point of a convex polyhedron is a vertex if and only if it is a combination of no other points of it",
         "A vertex is the only point with the largest value of some linear function, so that a combination of other "
         "points has a smaller value. So no point between two others is a vertex, and no vertex of the hull of any "
@@ -92,7 +96,8 @@ def no_combination() -> Proof:
         "old one does not contain the vertex. By Minkowski's theorem every point is a combination of vertices. So a "
         "convex polyhedron that contains all vertices contains the whole polyhedron, and a smaller one does not "
         "contain all vertices.",
-        (largest_value(), *combination_satisfies()),
+        largest_value(),
+        *combination_satisfies(),
     )
 
 
@@ -102,12 +107,12 @@ def choice_of_q() -> Proof:
     n, p, q, r = (point(name, 3) for name in "npqr")
     in_face, difference = zero(dot(n, minus(q, r))), zero(dot(n, minus(p, q)) - dot(n, minus(p, r)))
     says = "the product of the normal with P - Q does not depend on Q"
-    return Proof(
+    return Proof.of(
         "the scalar product of a face's normal with the way to P is the same from all points Q of the face",
         "The normal is perpendicular to the way from one point of the face to another. So the sign of its product with "
         "the way to P is the same for all of them. By definition VI it is positive for a visible face, which is an "
         "acute angle, and negative for an invisible one, which is an obtuse angle.",
-        (Step(says, {"face": in_face}, difference, (term("face", -1),)),),
+        Step(says, {"face": in_face}, difference, (term("face", -1),)),
     )
 
 
@@ -115,22 +120,22 @@ def halves() -> Proof:
     x, p, q, w_p, w_q = variables("x p q w_p w_q")
     below = {"p": positive(x - p), "q": positive(x - q), "w_p": positive(w_p), "w_q": not_negative(w_q)}
     smaller = positive((w_p + w_q) * x - w_p * p - w_q * q)
-    return Proof(
+    return Proof.of(
         "the hulls of two sets do not meet if a plane x = c is between the sets",
         "All combinations of points with a smaller x have a smaller x. The other set is treated in the same way with "
         "the opposite sign.",
-        (Step("x of a combination is smaller", below, smaller, (term("w_p p"), term("w_q q"))),),
+        Step("x of a combination is smaller", below, smaller, (term("w_p p"), term("w_q q"))),
     )
 
 
 @proves("kovalevsky-schulz.95")
 def symmetry() -> Proof:
-    return Proof(
+    return Proof.of(
         "a rotation or reflection that maps the points to themselves maps their hull to itself",
         "Each coordinate of the image is a linear function with a constant term, so that the image of a combination is "
         "the combination of the images. So combinations of the points are mapped to combinations of them, and the "
         "inverse map shows that all of them are images.",
-        combination_satisfies()[:1],
+        *combination_satisfies()[:1],
     )
 
 
@@ -152,19 +157,17 @@ def lemma_be() -> Proof:
     terms = term("hidden within_v"), term("visible within_n")
     along_edge = {"v": zero(dot(visible, edge)), "n": zero(dot(hidden, edge))}
     combined = term("v", a), term("n", b)
-    return Proof(
+    return Proof.of(
         "the plane through the new point and a horizon edge has the whole polyhedron on one side",
         "Let Q be a point of the edge, and let N_v and N_n be the normals of the visible and of the other face. With "
         "a = -N_n (P - Q) and b = N_v (P - Q), the vector a N_v + b N_n is perpendicular to P - Q and to the edge. "
         "Its product with the way from Q to any point of the polyhedron is not positive. It is negative at inner "
         "points, and so the vector is not zero. b is positive, and a is positive unless the other face is coplanar "
         "with P.",
-        (
-            Step("the normal is perpendicular to P - Q", {}, zero(dot(normal, new))),
-            Step("the normal is perpendicular to the edge", along_edge, zero(dot(normal, edge)), combined),
-            Step("no point of the polyhedron is beyond the new plane", signs, not_negative(-dot(normal, way)), terms),
-            Step("inner points are on the inner side of the new plane", strictly, positive(-dot(normal, way)), terms),
-        ),
+        Step("the normal is perpendicular to P - Q", {}, zero(dot(normal, new))),
+        Step("the normal is perpendicular to the edge", along_edge, zero(dot(normal, edge)), combined),
+        Step("no point of the polyhedron is beyond the new plane", signs, not_negative(-dot(normal, way)), terms),
+        Step("inner points are on the inner side of the new plane", strictly, positive(-dot(normal, way)), terms),
     )
 
 

@@ -29,33 +29,31 @@ def front_face() -> Proof:
     )
     from_eye = dot(inward, a)
     in_front = {name: positive(depth) for name, depth in zip("rst", depths, strict=True)}
-    return Proof(
+    return Proof.of(
         "a convex face is a front face if and only if two successive edges turn clockwise in the projection",
         "The eye is at the origin and looks along z, x points to the right and y down, so that a positive area is "
         "clockwise. The corners of a face run clockwise seen from outside, and so the normal (b - a) x (c - a) points "
         "inward. The eye sees the outer side if the product of this normal with the way from the eye to a is positive. "
         "All corners are in front of the eye, so their depths are positive. In a parallel projection along z, the way "
         "from the eye is z itself. All pairs of successive edges of a convex face turn in the same sense.",
-        (
-            *(
-                Step(
-                    f"seen from {side}, the corners turn {sense} in the projection",
-                    {side: positive(sign * from_eye), **in_front},
-                    positive(sign * turn),
-                    (term(side),),
-                    tuple("rst"),
-                )
-                for side, sense, sign in (("outside", "clockwise", 1), ("inside", "counterclockwise", -1))
-            ),
+        *(
             Step(
-                "seen in its own plane, the corners are on a line",
-                {"edgewise": zero(from_eye), **in_front},
-                zero(turn),
-                (term("edgewise"),),
+                f"seen from {side}, the corners turn {sense} in the projection",
+                {side: positive(sign * from_eye), **in_front},
+                positive(sign * turn),
+                (term(side),),
                 tuple("rst"),
-            ),
-            Step("in a parallel projection, the normal has the sign of the turn", {}, zero(along[2] - turn)),
+            )
+            for side, sense, sign in (("outside", "clockwise", 1), ("inside", "counterclockwise", -1))
         ),
+        Step(
+            "seen in its own plane, the corners are on a line",
+            {"edgewise": zero(from_eye), **in_front},
+            zero(turn),
+            (term("edgewise"),),
+            tuple("rst"),
+        ),
+        Step("in a parallel projection, the normal has the sign of the turn", {}, zero(along[2] - turn)),
     )
 
 
@@ -66,12 +64,13 @@ def three_corners() -> Proof:
     (x1, y1), (x2, y2), (x, y) = ((x, -y) for x, y in images)
     formula_1 = -(x * (y1 - y2) - y * (x1 - x2) + x1 * y2 - x2 * y1)
     front = front_face()
-    return Proof(
+    return Proof.of(
         "formula (1) for three successive corners that form a convex angle is positive if and only if they belong to a "
         "front face",
         f"{front.argument} If y points up, formula (1) for the three corners is this turn. It is 0 only if the corners "
         "are collinear, which a convex angle excludes, or if the face is seen in its own plane.",
-        (*front.steps, Step("formula (1) is the turn", {}, zero(formula_1 - bracket(u, v, w)))),
+        *front.steps,
+        Step("formula (1) is the turn", {}, zero(formula_1 - bracket(u, v, w))),
     )
 
 
@@ -80,15 +79,13 @@ def overlap_by_neighbours() -> Proof:
     o, p, q, r = (point(name, 2) for name in "opqr")
     (t,) = variables("t")
     x = tuple((1 - t) * a + t * b for a, b in zip(p, q, strict=True))
-    return Proof(
+    return Proof.of(
         "a segment on the line of a side overlaps the side if and only if each of the two adjacent columns has a 1 in "
         "one of its two rows",
         "Let o, p, q and r be successive corners of a contour, none of them straight, and let x = p + t (q - p) be an "
         "end of the segment. The values of (1) for x in the columns of o p and q r are t times the value at q, and 1 - "
         "t times that at p, which are positive. So these columns have a 1 if t > 0 and if t < 1. A segment of the line "
         "overlaps the side if and only if t > 0 at one of its ends and t < 1 at one of its ends.",
-        (
-            Step("the value for o p is t times that at q", {}, zero(bracket(o, p, x) - t * bracket(o, p, q))),
-            Step("the value for q r is 1 - t times that at p", {}, zero(bracket(q, r, x) - (1 - t) * bracket(q, r, p))),
-        ),
+        Step("the value for o p is t times that at q", {}, zero(bracket(o, p, x) - t * bracket(o, p, q))),
+        Step("the value for q r is 1 - t times that at p", {}, zero(bracket(q, r, x) - (1 - t) * bracket(q, r, p))),
     )

@@ -43,30 +43,28 @@ def hull_is_convex() -> Proof:
     m, k, w = variables("m k w")
     weights = {"w": not_negative(w), "k": not_negative(k), "m": not_negative(m), "rest": not_negative(1 - m)}
     new_weight = not_negative((1 - m) * w + m * k)
-    return Proof(
+    return Proof.of(
         "the combinations of points form the smallest convex set that contains the points",
         "With the weights w and k of a point in the two combinations its new weight is (1 - m) w + m k. This is not "
         "negative, and the new weights have the sum (1 - m) + m = 1. So the segment between two combinations consists "
         "of combinations. A convex set that contains the points contains all combinations of them: if m < 1 is the "
         "weight of one point, the combination is between this point and the combination of the fewer other points with "
         "their weights divided by 1 - m.",
-        (
-            Step("the new weight is not negative", weights, new_weight, (term("rest w"), term("m k"))),
-            Step("the sum of the weights is 1", {}, zero((1 - m) + m - 1)),
-        ),
+        Step("the new weight is not negative", weights, new_weight, (term("rest w"), term("m k"))),
+        Step("the sum of the weights is 1", {}, zero((1 - m) + m - 1)),
     )
 
 
 @proves("yau-srihari.47", "yau-srihari.96")
 def convex_epigraph() -> Proof:
-    return Proof(
+    return Proof.of(
         "a function is convex if and only if the set on and above its graph is, and similarly for concave functions",
         "By definition, f is convex if and only if no segment between two points of its graph is below the graph. If f "
         "is convex, a point between two points of the epigraph is on or above the combination of two points of "
         "the graph, which is on or above the graph. Conversely, take two points of the graph itself: a point between "
         "them is in the epigraph, and so f is at most their combination. A concave function is treated in the same way "
         "with the opposite sign.",
-        (combination_above(),),
+        combination_above(),
     )
 
 
@@ -76,15 +74,13 @@ def segment_of_graph() -> Proof:
     combined = (1 - m) * f_x + m * f_y
     on_segment = zero(z - combined)
     convex, concave = not_negative(combined - f_between), not_negative(f_between - combined)
-    return Proof(
+    return Proof.of(
         "a segment between two points of the graph is nowhere below the graph of a convex function, and nowhere above "
         "that of a concave one",
         "The point of the segment over (1 - m) X + m Y has the height z = (1 - m) f(X) + m f(Y). The definitions of "
         "convex and concave functions compare this number with the value of f there.",
-        (
-            Step("not below", {"z": on_segment, "f": convex}, not_negative(z - f_between), (term("z"), term("f"))),
-            Step("not above", {"z": on_segment, "f": concave}, not_negative(f_between - z), (term("z", -1), term("f"))),
-        ),
+        Step("not below", {"z": on_segment, "f": convex}, not_negative(z - f_between), (term("z"), term("f"))),
+        Step("not above", {"z": on_segment, "f": concave}, not_negative(f_between - z), (term("z", -1), term("f"))),
     )
 
 
@@ -93,10 +89,10 @@ def negative_is_concave() -> Proof:
     m, f_x, f_y, f_between = variables("m f_x f_y f_between")
     convex = {"convex": not_negative((1 - m) * f_x + m * f_y - f_between)}
     concave = not_negative(-f_between - (1 - m) * -f_x - m * -f_y)
-    return Proof(
+    return Proof.of(
         "the negative of a convex function is concave, and vice versa",
         "The definitions differ only in the direction of the inequality, and multiplying by -1 reverses it.",
-        (Step("-f satisfies the inequality of concave functions", convex, concave, (term("convex"),)),),
+        Step("-f satisfies the inequality of concave functions", convex, concave, (term("convex"),)),
     )
 
 
@@ -104,7 +100,7 @@ def negative_is_concave() -> Proof:
 def theorem_1() -> Proof:
     low, high, z = variables("low high z")
     between = zero((high - low) * z - (high - z) * low - (z - low) * high)
-    return Proof(
+    return Proof.of(
         "the hull consists of the points on or above the convex envelope of the floor and on or below the concave "
         "envelope of the ceiling",
         "A point of the hull is a combination of points of S. Each of these is on or above the floor, so that the "
@@ -112,11 +108,9 @@ def theorem_1() -> Proof:
         "The ceiling is treated in the same way with the opposite sign. Conversely, the envelopes are attained by "
         "combinations of points of S, since S is finite, and so both of their points over X are in the hull. If they "
         "differ, a point over X between them is a combination of them with the weights high - z and z - low.",
-        (
-            combination_above(),
-            Step("a point between the envelopes is a combination of their points", {}, between),
-            Step("the weights have the sum high - low", {}, zero((high - z) + (z - low) - (high - low))),
-        ),
+        combination_above(),
+        Step("a point between the envelopes is a combination of their points", {}, between),
+        Step("the weights have the sum high - low", {}, zero((high - z) + (z - low) - (high - low))),
     )
 
 
@@ -134,7 +128,7 @@ def theorem_2() -> Proof:
         "far": positive(turn(up, u)),
     }
     coordinates = tuple(term("inside", coordinate) for coordinate in f)
-    return Proof(
+    return Proof.of(
         "a plane through an edge of a face p supports if and only if its interior dihedral angle with p is the largest",
         "Project along the edge, so that p becomes the ray f and all points are on one side of it. The interior "
         "dihedral angle of the plane through u is the angle from f to u, and w is inside of that plane if w turns to "
@@ -143,12 +137,10 @@ def theorem_2() -> Proof:
         "points on the far side of the edge, as seen from above. If p is not upright, points on the side of p have no "
         "larger angles than those on the far side. If p is upright, no point is on its side. The outward normals make "
         "the supplement of the angle, so that its smallest value, and not its largest, belongs to the next face.",
-        (
-            Step("a point with a smaller angle than the plane is inside", smaller, inside, (term("angles"),), ("p",)),
-            Step("a point inside has a smaller angle", {"inside": inside}, not_negative(cotangents), coordinates),
-            Step("a far point has the larger angle", sides, inside, (term("w far"), term("u near")), ("upright",)),
-            Step("the outward normals make the supplement", {}, zero(dot(outward_p, outward_q) + dot(f, u))),
-        ),
+        Step("a point with a smaller angle than the plane is inside", smaller, inside, (term("angles"),), ("p",)),
+        Step("a point inside has a smaller angle", {"inside": inside}, not_negative(cotangents), coordinates),
+        Step("a far point has the larger angle", sides, inside, (term("w far"), term("u near")), ("upright",)),
+        Step("the outward normals make the supplement", {}, zero(dot(outward_p, outward_q) + dot(f, u))),
     )
 
 
@@ -156,30 +148,28 @@ def theorem_2() -> Proof:
 def third_corner() -> Proof:
     at_corner, at_point = variables("L_v L_w")
     corner, same_side = positive(at_corner), not_negative(at_corner * at_point)
-    return Proof(
+    return Proof.of(
         "a plane through an edge of a face p supports if and only if no point is on the side opposite to the third "
         "corner of p",
         "Choose the sign of the plane's equation L so that L is not negative at the third corner v. A point w is on "
         "the side opposite to v if and only if the product of both values is negative. If L is positive at v, this is "
         "so if and only if L is negative at w, and the plane supports if and only if L is negative at no point. If L "
         "is 0 at v, the plane is that of p, which supports, and no point is opposite to v.",
-        (
-            Step("not negative", {"v": corner, "w": same_side}, not_negative(at_point), (term("w"),), ("v",)),
-            Step("not opposite", {"v": corner, "w": not_negative(at_point)}, same_side, (term("v w"),)),
-        ),
+        Step("not negative", {"v": corner, "w": same_side}, not_negative(at_point), (term("w"),), ("v",)),
+        Step("not opposite", {"v": corner, "w": not_negative(at_point)}, same_side, (term("v w"),)),
     )
 
 
 @proves("yau-srihari.55")
 def extreme_point_of_plane() -> Proof:
-    return Proof(
+    return Proof.of(
         "each supporting plane of the surface contains an extreme point of the surface",
         "A point of the surface is a least combination of points of the floor. None of them is above the surface, "
         "because the point of the surface below it would give a smaller combination. So every point of the surface is "
         "a combination of points of V, the points of the floor on the surface. On a supporting plane a linear function "
         "has its largest value on the surface, and so the plane contains points of V. By lemma LZ one of them is no "
         "combination of other points of V. So it is not between two points of the surface.",
-        lemma_lz().steps,
+        *lemma_lz().steps,
     )
 
 
@@ -187,21 +177,21 @@ def extreme_point_of_plane() -> Proof:
 def normal_of_starting_face() -> Proof:
     start, end, (c,) = point("w", 3), point("u", 3), variables("c")
     normal, (dx, dy, _) = cross(minus(end, start), (0 * c, 0 * c, c)), minus(end, start)
-    return Proof(
+    return Proof.of(
         "the normal of a starting face has integer components",
         "The components are polynomials with integer coefficients in coordinates that are integers.",
-        tuple(Step("a component", {}, zero(n - p)) for n, p in zip(normal, (c * dy, -c * dx, 0 * c), strict=True)),
+        *(Step("a component", {}, zero(n - p)) for n, p in zip(normal, (c * dy, -c * dx, 0 * c), strict=True)),
     )
 
 
 @proves("yau-srihari.113")
 def number_of_pairs() -> Proof:
     (n,) = variables("n")
-    return Proof(
+    return Proof.of(
         "n points have n (n - 1) / 2 pairs",
         "One point has no pair. A new point has n pairs with the n points before it, and twice n plus n (n - 1) is "
         "(n + 1) n.",
-        (Step("n new pairs", {}, zero(2 * n + n * (n - 1) - (n + 1) * n)),),
+        Step("n new pairs", {}, zero(2 * n + n * (n - 1) - (n + 1) * n)),
     )
 
 
