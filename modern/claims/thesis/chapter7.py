@@ -53,7 +53,7 @@ def deck_with(points: Iterable[Iterable[object]]) -> Deck:
 
 
 def traced_run(points: Iterable[Iterable[object]], trace: Trace, load: Load = programs.program) -> HullRun:
-    """Run the programs on a set; call ``trace`` before each statement, with the name of its source and the session."""
+    """Run the programs on a set; before each statement, call ``trace`` with the source, the line and the session."""
 
     def watch(program: Program, machine: Machine) -> None:
         machine.tracer = partial(trace, program.source)

@@ -160,7 +160,7 @@ def _tests_of_own_points(points: tuple[Point, ...]) -> tuple[list[tuple[bool, bo
 
 
 @claim("thesis.184", full=600)
-def programs_rejecting_data(cases: int = 12) -> Check:
+def programs_rejecting_data(cases: int = 6) -> Check:
     outcomes, names, accepted = [], [], 0
     for points in TRUNCATED.cases(cases):
         tests, run = _tests_of_own_points(points)

@@ -56,12 +56,12 @@ def one_or_two_points() -> Proof:
         IMPOSSIBLE,
         (term("weight weight distinct"), *(term(axis, -weight * d) for axis, d in zip("xyz", way, strict=True))),
     )
-    return Proof(
+    return Proof.of(
         "all points of a set of one or two distinct points are vertices",
         "A point is a vertex if it is no combination, with two positive weights, of two points of the hull. The hull "
         "of one point has no two points. A combination of two points of the segment p q is p plus a weight times q - "
         "p. The weight is positive because only one of them can be p. So the combination is not p, nor, likewise, q.",
-        (step,),
+        step,
     )
 
 
@@ -140,19 +140,17 @@ def coordinates_of_figure_3() -> Proof:
     third, way = point("r", 2), minus(point("q", 2), point("p", 2))
     moved = {name: (turn(way, u), dot(way, u)) for name in "pqrx" for u in [minus(point(name, 2), third)]}
     image, original = moved["x"], minus(point("x", 2), third)
-    return Proof(
+    return Proof.of(
         "in coordinates that keep all distances, P_3 is the origin, P_1 and P_2 have the same x, and y_1 is less than "
         "y_2",
         "The new coordinates of a point x, times the distance of P_1 and P_2, are products of the way from P_1 to P_2 "
         "with the way from P_3 to x. They keep distances, because the sum of the squares of both products is the "
         "product of the squares of both ways. If P_1 has a negative x, -x takes the place of x. If P_1, P_2 and P_3 "
         "run clockwise, the change of coordinates is a reflection as well as a movement.",
-        (
-            *_all_zero("P_3 is the origin", moved["r"]),
-            Step("P_1 and P_2 have the same x", {}, zero(moved["p"][0] - moved["q"][0])),
-            Step("y_2 - y_1 is a square", {}, zero(moved["q"][1] - moved["p"][1] - dot(way, way))),
-            Step("distances are kept", {}, zero(dot(image, image) - dot(way, way) * dot(original, original))),
-        ),
+        *_all_zero("P_3 is the origin", moved["r"]),
+        Step("P_1 and P_2 have the same x", {}, zero(moved["p"][0] - moved["q"][0])),
+        Step("y_2 - y_1 is a square", {}, zero(moved["q"][1] - moved["p"][1] - dot(way, way))),
+        Step("distances are kept", {}, zero(dot(image, image) - dot(way, way) * dot(original, original))),
     )
 
 

@@ -53,45 +53,42 @@ def theorem_4_3() -> Proof:
     to_line = tuple(a - t * b for a, b in zip(minus(Q, X), u, strict=True))
     # The square of the distance of X from a point of the line, times D^2, less V; and the equation of the foot.
     excess, foot = square * dot(to_line, to_line) - printed_v(X, X), dot(u, to_line)
-    by_foot = term("t", foot)
     d_k, d_j, v_k, v_j, dd = variables("d_k^2 d_j^2 V_k V_j D^2")
     # Page 42: the direction cosines times e D are the differences of the coordinates.
     cosines, (d,) = point("lambda", 3), variables("D")
     scaled = {e: [e * d * cosine - a for cosine, a in zip(cosines, u, strict=True)] for e in (1, -1)}
-    return Proof(
+    return Proof.of(
         "V_k >= V_j implies that the point k is at least as far from the line as the point j",
         "D^2 is positive because the points differ in a coordinate. e is 1 or -1 and D^2 is the sum of the squares of "
         "the differences, so the squares of the cosines have the sum 1. The square of the distance of x from any point "
         "of the line, times D^2, is at least V, and equals V at the foot of the perpendicular. So d^2 D^2 is V, e^2 is "
         "1, and dividing by D^2 keeps the order.",
-        (
-            *(
-                Step("D^2 > 0", {"a": positive(a * a)}, positive(square), (term("a"), term("", b), term("", c)))
-                for a, b, c in ((ux, uy, uz), (uy, uz, ux), (uz, ux, uy))
-            ),
-            *(
-                Step(
-                    f"the squares of the direction cosines have the sum 1 if e is {e}",
-                    {axis: zero(value) for axis, value in zip("xyz", values, strict=True)}
-                    | {"D": zero(d * d - square), "distinct": positive(square)},
-                    zero(dot(cosines, cosines) - 1),
-                    (
-                        *(term(axis, value + 2 * a) for axis, value, a in zip("xyz", values, u, strict=True)),
-                        term("D", -1 * dot(cosines, cosines)),
-                    ),
-                    ("distinct",),
-                )
-                for e, values in scaled.items()
-            ),
-            Step("the square of no distance is less than V / D^2", {}, not_negative(excess), (term("", foot),)),
-            Step("the square of the distance of the foot is V / D^2", {"t": zero(foot)}, zero(excess), (by_foot,)),
+        *(
+            Step("D^2 > 0", {"a": positive(a * a)}, positive(square), (term("a"), term("", b), term("", c)))
+            for a, b, c in ((ux, uy, uz), (uy, uz, ux), (uz, ux, uy))
+        ),
+        *(
             Step(
-                "the distances have the order of V",
-                {"k": zero(d_k * dd - v_k), "j": zero(d_j * dd - v_j), "V": not_negative(v_k - v_j), "D": positive(dd)},
-                not_negative(d_k - d_j),
-                (term("k"), term("j", -1), term("V")),
-                ("D",),
-            ),
+                f"the squares of the direction cosines have the sum 1 if e is {e}",
+                {axis: zero(value) for axis, value in zip("xyz", values, strict=True)}
+                | {"D": zero(d * d - square), "distinct": positive(square)},
+                zero(dot(cosines, cosines) - 1),
+                (
+                    *(term(axis, value + 2 * a) for axis, value, a in zip("xyz", values, u, strict=True)),
+                    term("D", -1 * dot(cosines, cosines)),
+                ),
+                ("distinct",),
+            )
+            for e, values in scaled.items()
+        ),
+        Step("the square of no distance is less than V / D^2", {}, not_negative(excess), (term("", foot),)),
+        Step("the square of the distance of the foot is V / D^2", {"t": zero(foot)}, zero(excess), (term("t", foot),)),
+        Step(
+            "the distances have the order of V",
+            {"k": zero(d_k * dd - v_k), "j": zero(d_j * dd - v_j), "V": not_negative(v_k - v_j), "D": positive(dd)},
+            not_negative(d_k - d_j),
+            (term("k"), term("j", -1), term("V")),
+            ("D",),
         ),
     )
 
@@ -116,12 +113,12 @@ def theorem_4_4() -> Proof:
         ):
             hypotheses = {**of_plane, "first": zero(way[i]), "second": zero(way[j])}
             steps.append(Step(says, hypotheses, zero(way[axis]), (*terms, *of_projection), ("tilted",)))
-    return Proof(
+    return Proof.of(
         "if the plane of the points is not parallel to an axis, leaving out that coordinate keeps the vertices",
         "A vertex is a point that is not between two others of the hull. Leaving out a coordinate maps points between "
         "others to points between others. Conversely, a point whose projection is between two others is between them, "
         "and different points have different projections.",
-        tuple(steps),
+        *steps,
     )
 
 
@@ -131,37 +128,35 @@ def theorem_4_6() -> Proof:
     value, on_line = a * x + b * y + c, a * s + b * t + c
     across = b * (x - s) - a * (y - t)
     scaled = (a * a + b * b) * ((x - s) * (x - s) + (y - t) * (y - t)) - value * value
-    return Proof(
+    return Proof.of(
         "on the positive side of a line, the larger value of its equation has the larger distance",
         "For every point of the line the square of the distance times A^2 + B^2 is at least the square of the value, "
         "and equal to it at the foot of the perpendicular. A^2 + B^2 is positive, and values that are not negative "
         "have the order of their squares.",
-        (
-            Step(
-                "no point of the line is nearer than the foot of the perpendicular",
-                {"line": zero(on_line)},
-                not_negative(scaled),
-                (term("", across), term("line", on_line - 2 * value)),
-            ),
-            Step(
-                "d^2 (A^2 + B^2) is the square of the value at the foot of the perpendicular",
-                {"line": zero(on_line), "foot": zero(across)},
-                zero(scaled),
-                (term("foot", across), term("line", on_line - 2 * value)),
-            ),
-            Step(
-                "the distances have the order of the values",
-                {
-                    "m": zero(d_m * square - v_m * v_m),
-                    "j": zero(d_j * square - v_j * v_j),
-                    "order": not_negative(v_m - v_j),
-                    "v_j": not_negative(v_j),
-                    "square": positive(square),
-                },
-                not_negative(d_m - d_j),
-                (term("m"), term("j", -1), term("", v_m - v_j), term("order v_j"), term("order v_j")),
-                ("square",),
-            ),
+        Step(
+            "no point of the line is nearer than the foot of the perpendicular",
+            {"line": zero(on_line)},
+            not_negative(scaled),
+            (term("", across), term("line", on_line - 2 * value)),
+        ),
+        Step(
+            "d^2 (A^2 + B^2) is the square of the value at the foot of the perpendicular",
+            {"line": zero(on_line), "foot": zero(across)},
+            zero(scaled),
+            (term("foot", across), term("line", on_line - 2 * value)),
+        ),
+        Step(
+            "the distances have the order of the values",
+            {
+                "m": zero(d_m * square - v_m * v_m),
+                "j": zero(d_j * square - v_j * v_j),
+                "order": not_negative(v_m - v_j),
+                "v_j": not_negative(v_j),
+                "square": positive(square),
+            },
+            not_negative(d_m - d_j),
+            (term("m"), term("j", -1), term("", v_m - v_j), term("order v_j"), term("order v_j")),
+            ("square",),
         ),
     )
 
@@ -197,7 +192,7 @@ def theorem_4_7() -> Proof:
         "cd": positive(-bracket(c, d, h)),
     }
     sum_of_three = (term("abc bcd"), term("bcd ab"), term("abc cd"))
-    return Proof(
+    return Proof.of(
         "a point of the set is outside at most one line of an H_j",
         "Every vertex of an H_j has the largest value of a linear function on the set: the first two are extremes, "
         "and the others have the largest value of a line. So no vertex is inside a triangle of points of the set. Let "
@@ -208,45 +203,39 @@ def theorem_4_7() -> Proof:
         "be outside both. If two edges are on one line, the middle one of their ends is between the others, and its "
         "linear function is a multiple of the line; then h and a vertex v on the other side cannot both have smaller "
         "values.",
-        (
-            *_boundary_steps(),
-            *(Step("a is a combination of c, b and h", {}, zero(equation)) for equation in inside),
+        *_boundary_steps(),
+        *(Step("a is a combination of c, b and h", {}, zero(equation)) for equation in inside),
+        Step(
+            "the weights of c, b and h are positive, and so is the area of c h b",
+            {"cab": positive(bracket(c, a, b)), "ca": positive(-bracket(c, a, h)), "ab": positive(-bracket(a, b, h))},
+            positive(bracket(c, h, b)),
+            (term("cab"), term("ca"), term("ab")),
+        ),
+        Step(
+            "a point outside a b and c d is outside b c",
+            {**quadrilateral, "turn": positive(between)},
+            positive(-bracket(b, c, h)),
+            sum_of_three,
+            ("turn",),
+        ),
+        Step(
+            "no point is outside both of two parallel lines",
+            {**quadrilateral, "turn": zero(between)},
+            IMPOSSIBLE,
+            (*sum_of_three, term("turn", bracket(b, c, h))),
+        ),
+        *(
             Step(
-                "the weights of c, b and h are positive, and so is the area of c h b",
+                "a multiple of a line's equation is larger on one of its sides",
                 {
-                    "cab": positive(bracket(c, a, b)),
-                    "ca": positive(-bracket(c, a, h)),
-                    "ab": positive(-bracket(a, b, h)),
+                    "kappa": positive(sign * kappa),
+                    "side": positive(sign * bracket(a, b, v)),
+                    "largest": not_negative(-kappa * bracket(a, b, v)),
                 },
-                positive(bracket(c, h, b)),
-                (term("cab"), term("ca"), term("ab")),
-            ),
-            Step(
-                "a point outside a b and c d is outside b c",
-                {**quadrilateral, "turn": positive(between)},
-                positive(-bracket(b, c, h)),
-                sum_of_three,
-                ("turn",),
-            ),
-            Step(
-                "no point is outside both of two parallel lines",
-                {**quadrilateral, "turn": zero(between)},
                 IMPOSSIBLE,
-                (*sum_of_three, term("turn", bracket(b, c, h))),
-            ),
-            *(
-                Step(
-                    "a multiple of a line's equation is larger on one of its sides",
-                    {
-                        "kappa": positive(sign * kappa),
-                        "side": positive(sign * bracket(a, b, v)),
-                        "largest": not_negative(-kappa * bracket(a, b, v)),
-                    },
-                    IMPOSSIBLE,
-                    (term("kappa side"), term("largest")),
-                )
-                for sign in (1, -1)
-            ),
+                (term("kappa side"), term("largest")),
+            )
+            for sign in (1, -1)
         ),
     )
 
@@ -255,7 +244,7 @@ def theorem_4_5() -> Proof:
     a, b, c, d, p, v, x = (point(name, 2) for name in "abcdpvx")
     weights = bracket(p, b, x), bracket(a, p, x), -bracket(a, b, x)
     area = -bracket(a, b, p)
-    return Proof(
+    return Proof.of(
         "the points that satisfy all lines of H_j are the convex combinations of its vertices",
         "Combinations satisfy the inequalities that their points satisfy. For H_1, a triangle, and for the triangle "
         "a b p added to H_k, a point has the weights [p, b, x], [a, p, x] and -[a, b, x] with the sum -[a, b, p]. They "
@@ -263,33 +252,31 @@ def theorem_4_5() -> Proof:
         "b d are not on the line a b, and all vertices v of H_k satisfy the new lines a p and p b. Hence H_k+1 "
         "contains all combinations. A point of H_k+1 satisfies a b, and then it is in H_k, or it does not, and then it "
         "is in the triangle.",
-        (
-            *combination_satisfies(),
-            *(
-                Step(
-                    "a point is a combination of a, b and p",
-                    {},
-                    zero(area * x[k] - total(w * y[k] for w, y in zip(weights, (a, b, p), strict=True))),
-                )
-                for k in (0, 1)
-            ),
-            Step("the weights add up to the area", {}, zero(area - total(weights))),
-            *(
-                Step(
-                    f"a vertex satisfies the new line {name}",
-                    {
-                        "corner": positive(bracket(*corner)),
-                        "p": not_negative(bracket(*edge, p)),
-                        "outer": positive(area),
-                        "v": not_negative(bracket(*edge, v)),
-                        "abv": not_negative(bracket(a, b, v)),
-                    },
-                    not_negative(bracket(*line, v)),
-                    (term("p abv"), term("outer v")),
-                    ("corner",),
-                )
-                for name, corner, edge, line in (("a p", (c, a, b), (c, a), (a, p)), ("p b", (a, b, d), (b, d), (p, b)))
-            ),
+        *combination_satisfies(),
+        *(
+            Step(
+                "a point is a combination of a, b and p",
+                {},
+                zero(area * x[k] - total(w * y[k] for w, y in zip(weights, (a, b, p), strict=True))),
+            )
+            for k in (0, 1)
+        ),
+        Step("the weights add up to the area", {}, zero(area - total(weights))),
+        *(
+            Step(
+                f"a vertex satisfies the new line {name}",
+                {
+                    "corner": positive(bracket(*corner)),
+                    "p": not_negative(bracket(*edge, p)),
+                    "outer": positive(area),
+                    "v": not_negative(bracket(*edge, v)),
+                    "abv": not_negative(bracket(a, b, v)),
+                },
+                not_negative(bracket(*line, v)),
+                (term("p abv"), term("outer v")),
+                ("corner",),
+            )
+            for name, corner, edge, line in (("a p", (c, a, b), (c, a), (a, p)), ("p b", (a, b, d), (b, d), (p, b)))
         ),
     )
 
