@@ -123,14 +123,13 @@ def incidence_by_coordinates() -> Check:
     outcomes = [sorted(points.values()) == sorted(map(list, product(intervals, repeat=3)))]
     outcomes += [dimension(cell) == sum(low < high for low, high in points[cell]) for cell in cells]
     # A cell bounds another one if its set of points is a part of that of the other cell.
+    pairs = [*product(cells, repeat=2)]
     within = {
         (e, f)
-        for e, f in product(cells, repeat=2)
+        for e, f in pairs
         if all(low <= a <= b <= high for (a, b), (low, high) in zip(points[e], points[f], strict=True))
     }
-    outcomes += [
-        bool({(e, f), (f, e)} & within) == (f in near[e]) == (e in near[f]) for e, f in product(cells, repeat=2)
-    ]
+    outcomes += [bool({(e, f), (f, e)} & within) == (f in near[e]) == (e in near[f]) for e, f in pairs]
     outcomes.append(any(near[f] - near[e] for e in cells for f in near[e] & {*cells}))
     message = f"each of {len(cells)} cells has one element, whose coordinates tell its dimension and incident cells; "
     message += "incidence is symmetric and reflexive, but not transitive"
@@ -160,10 +159,7 @@ def is_complex(cells: Complex) -> bool:
 
 
 def complexes(k: int) -> Iterator[Complex]:
-    """Yield all k-complexes of up to four cells, with the cells in the order of their dimensions.
-
-    A k-complex has cells of dimensions up to k (Definition ACC).
-    """
+    """Yield all k-complexes (Definition ACC: of cells of dimensions up to k) with up to four cells, by dimension."""
     for count in range(5):
         for dimensions in combinations_with_replacement(range(k + 1), count):
             rising = [(e, f) for e, f in combinations(range(count), 2) if dimensions[e] < dimensions[f]]

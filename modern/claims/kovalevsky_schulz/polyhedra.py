@@ -249,10 +249,9 @@ def economical_encoding(cases: int = 4) -> Check:
         cycles = tuple(tuple(numbers[k] for k in facet.polygon) for facet in judge.facets)
         edges = expanded(Economical(tuple(solid[k] for k in judge.vertices), cycles)).edges
         hull_edges = {frozenset((numbers[a], numbers[b])) for a, b in judge.edges()}
-        outcomes = [_incidences(expanded(cells.economical())) == _incidences(cells)]
-        outcomes.append({frozenset((e.start, e.end)) for e in edges} == hull_edges)
-        outcomes += [{e.start, e.end} <= {*cycles[e.left - 1]} & {*cycles[e.right - 1]} for e in edges]
-        return all(outcomes)
+        on_both_faces = all({e.start, e.end} <= {*cycles[e.left - 1]} & {*cycles[e.right - 1]} for e in edges)
+        is_restored = _incidences(expanded(cells.economical())) == _incidences(cells)
+        return is_restored and on_both_faces and {frozenset((e.start, e.end)) for e in edges} == hull_edges
 
     message = "the edges and their faces follow from the economical encodings of the triangles and of the merged faces"
     return search(SOLIDS, returns, cases, message)

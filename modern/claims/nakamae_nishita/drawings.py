@@ -122,8 +122,6 @@ def pieces_against_rays(cases: int = 3, scenes: Generator[tuple[Box, ...]] = SCE
 
 # Directions parallel to no face of a sampled hull: the components of the faces' normals are integers up to 200.
 DIRECTIONS: tuple[Point, ...] = ((1, 401, 401**2), (-(401**2), 1, 401), (401, -(401**2), -1))
-# A line in such a direction that enters a hull at the midpoint of an edge is inside for more than 1 / SHARE of it.
-SHARE = 10**8
 
 
 def polyhedron_of(points: Sequence[Point], judge: ExactHull) -> Polyhedron:
@@ -136,17 +134,15 @@ def polyhedron_of(points: Sequence[Point], judge: ExactHull) -> Polyhedron:
 def edges_that_can_be_visible(cases: int = CASES) -> Check:
     outcomes, hidden = [], 0
     for sampled in sampled_sets(3, cases):
-        points = [sampled.points[k] for k in sampled.judge.vertices]
-        hull = polyhedron_of(sampled.points, sampled.judge)
-        # Coordinates are multiplied by twice SHARE, so that midpoints and the points next to them have integers.
-        enlarged = [tuple(2 * SHARE * c for c in point) for point in points]
+        hull = sampled.judge
+        points = [sampled.points[k] for k in hull.vertices]
         for way in DIRECTIONS:
-            (solid,) = draw([hull], parallel(way)).solids
+            (solid,) = draw([polyhedron_of(sampled.points, hull)], parallel(way)).solids
             for edge in solid.edges:
-                ends = zip(points[edge.start], points[edge.end], way, strict=True)
-                # A hull hides a midpoint if the point next to it, in the direction of the eye, is inside the hull.
-                beside = tuple(SHARE * (a + b) + 2 * w for a, b, w in ends)
-                is_hidden = exact_hull([*enlarged, beside]).inside == (len(enlarged),)
+                # A hull hides a midpoint if the points next to it, in the direction of the eye, are inside the hull.
+                doubled = plus(points[edge.start], points[edge.end])
+                values = ((dot(f.plane[:3], doubled) + 2 * f.plane[3], dot(f.plane[:3], way)) for f in hull.facets)
+                is_hidden = all(at_midpoint < 0 or along < 0 for at_midpoint, along in values)
                 outcomes.append(is_hidden != (edge.kind in (INNER, CONTOUR)))
                 hidden += is_hidden
     message = f"seen from {len(DIRECTIONS)} directions, hulls hide {hidden} of their own {len(outcomes)} edges: all "

@@ -190,11 +190,7 @@ def formula_5() -> Check:
 
 @cache
 def numbers_of_meetings(v: tuple[Place, ...], w: tuple[Place, ...]) -> list[tuple[int, int]]:
-    """Return two values of d, the number that tells how two segments meet, for each pair of sides of two contours.
-
-    The first is computed by formula (3), and the second is the value that section 3.2 states for the position of the
-    sides.
-    """
+    """Return d for each pair of sides of two contours, by formula (3) and as section 3.2 states it for the pair."""
     d_of, meetings = tables_of(v, w).crossing_number, []
     for (i, (a, b)), (j, (c, d)) in product(enumerate(sides(v)), enumerate(sides(w))):
         # Section 3.2: -4 for a crossing, -2 for a vertex on a segment, -1 for a common vertex, else 0.

@@ -50,13 +50,8 @@ def _scene(name: str, *without: str) -> Drawing:
 
 
 def _hidden(drawing: Drawing, kind: str) -> int:
-    ends = {
-        (number, frozenset((edge.start, edge.end)))
-        for number, solid in enumerate(drawing.solids)
-        for edge in solid.edges
-        if edge.kind == kind
-    }
-    return sum(not p.visible and (p.solid, frozenset((p.start, p.end))) in ends for p in drawing.pieces)
+    kinds = {(k, frozenset((e.start, e.end))): e.kind for k, solid in enumerate(drawing.solids) for e in solid.edges}
+    return sum(not p.visible and kinds[p.solid, frozenset((p.start, p.end))] == kind for p in drawing.pieces)
 
 
 # The ends of the segments that are compared with the contour of a convex polygon.

@@ -167,15 +167,15 @@ def convex_solid_fails_test() -> Check:
     """
     solid = counterexample_points("yau_near.csv")
     cells = {(x - 1, y - 1, z - 1) for x, y, z in np.argwhere(half_cell_expansion(array_of(solid))).tolist()}
-    hull = exact_hull(tuple(_moved(solid, (-9, 1), 8)))
-    neighbours = _moved(cells, (-1, 0, 1))
+    hull = exact_hull(tuple(moved(solid, (-9, 1), 8)))
+    neighbours = moved(cells, (-1, 0, 1))
     met = {a for a in neighbours if all(8 * hull.scale * dot(f.plane[:3], a) + f.plane[3] <= 0 for f in hull.facets)}
     fails_test = is_simple(array_of(solid)) and not is_digitally_convex(array_of(solid))
     message = f"{len(solid)} voxels fail the test, but their half-cell expansion is the image of a convex solid"
     return refuted(fails_test and met == cells, message)
 
 
-def _moved(points: Iterable[Point], steps: tuple[int, ...], scale: int = 1) -> set[Point]:
+def moved(points: Iterable[Point], steps: tuple[int, ...], scale: int = 1) -> set[Point]:
     """Return scaled points, moved by one of the steps along each axis."""
     return {(scale * x + i, scale * y + j, scale * z + k) for x, y, z in points for i, j, k in product(steps, repeat=3)}
 
