@@ -41,7 +41,7 @@ def corrected_method(cases: int = CASES) -> Check:
 def next_line(cases: int = CASES) -> Check:
     missing = _missing_faces("prism.csv", "step9", "step3")
     case = f"a prism, for which searches that begin at the head of the list miss {missing} faces"
-    message = f"if step 9 excludes the lines that it added, the loops of {cases} sets are the faces of the exact hull"
+    message = f"if step 9 excludes the lines that it added, the loops of {cases} sets run around the faces of the hull"
     return replace(method_against_judge(cases), message=message).unless(missing, case)
 
 
@@ -66,9 +66,10 @@ def method_against_judge(cases: int = CASES, method: Method = CORRECTED) -> Chec
         for loop, ring in zip(hull.table.loops, hull.surfaces, strict=True):
             ends = [hull.edges[abs(entry) - 1][:: 1 if entry > 0 else -1] for entry in loop.entries]
             checks.append(all(ends[k - 1][1] == point == ends[k][0] for k, point in enumerate(ring)))
-    message = "the loops are the convex faces of the exact hull and use each edge twice; the map lists the common "
-    message += "points of neighbouring lines: LC1 for a positive entry of the loop, LC2 for a negative one"
-    return searched(SETS[3], cases, checks, f"in {cases} sets, {message}")
+    message = f"for {cases} sets of points, the loops run around the faces of the exact hull, which are convex, and "
+    message += "use each edge twice; the map lists the points that neighbouring lines of a loop have in common: the "
+    message += "end LC1 of a line with a positive entry in the loop, and the end LC2 of a line with a negative entry"
+    return searched(SETS[3], cases, checks, message)
 
 
 @claim("appel-will.9", full=400)
@@ -78,7 +79,7 @@ def corners_of_convex_polygon(cases: int = CASES) -> Check:
         ring = [sampled.points[k][:2] for k in sampled.judge.polygon]
         areas = [area(p, q, r) for p, q in sides(ring) for r in ring if r not in (p, q)]
         checks.append(min(areas) > 0 or max(areas) < 0)
-    message = f"in {len(checks)} polygons, all other corners are on the same side of each side"
+    message = f"in {len(checks)} polygons, the line of each side has all other corners on one side"
     return searched(SETS[2], cases, checks, message)
 
 
@@ -108,9 +109,9 @@ def deletion_passes(cases: int = 8) -> Check:
     def ends_as_hull(ring: tuple[Flat, ...]) -> bool:
         return {*_passes(ring)[-1]} == {ring[k] for k in exact_hull([(x, y, 0) for x, y in ring]).vertices}
 
-    check = search(RINGS, lambda r: sides_cross(r) or ends_as_hull(r), cases, "each polygon ends as its hull")
+    check = search(RINGS, lambda r: sides_cross(r) or ends_as_hull(r), cases, "each polygon is reduced to its hull")
     end = len(_passes(SPIRAL)[-1])
-    case = f"a spiral of {len(SPIRAL)} points, which ends as a polygon of {end} that crosses itself"
+    case = f"a spiral of {len(SPIRAL)} points, which ends as a polygon of {end} points that crosses itself"
     return check.unless(_simple(SPIRAL) and sides_cross(SPIRAL) and not ends_as_hull(SPIRAL), case)
 
 
@@ -119,7 +120,7 @@ def deletion_makes_nonconvex() -> Check:
     ring = [(0, 0), (10, 0), (10, 10), (6, 1), (5, 5), (4, 1), (0, 10)]
     before = _convex_points(ring)
     lost = sorted({*before} - {*_convex_points(before)})
-    message = f"{', '.join(map(str, lost))} is convex at first and nonconvex after a deletion"
+    message = f"the corner {', '.join(map(str, lost))} of a polygon is convex at first and nonconvex after a deletion"
     return exhibited(_simple(ring) and lost, message)
 
 
@@ -151,13 +152,14 @@ def start_of_jarvis(cases: int = CASES) -> Check:
     for sampled in sampled_sets(2, cases):
         origins = (0, -6), (0, 6), (6, 0)
         checks += [_smallest_angle(origin, sampled.points) not in sampled.judge.inside for origin in origins]
-    message = f"from {len(checks)} origins below, above or to the right, the point with the least angle is on the hull"
+    message = f"for each of {len(checks)} origins below, above or to the right of the set, the point with the smallest "
+    message += "polar angle is on the hull"
     check = searched(SETS[2], cases, checks, message)
     origin, *points = counterexample_points("jarvis.csv")
     first = _smallest_angle(origin[:2], points)
     is_inside = first in exact_hull(points).inside and 0 in exact_hull([origin, *points]).vertices
     is_beside = min(y for _, y, _ in points) <= origin[1] <= max(y for _, y, _ in points)
-    case = f"the origin {origin[:2]}, from which {points[first][:2]} inside the hull is first"
+    case = f"the origin {origin[:2]}: the point {points[first][:2]} inside the hull has the smallest angle about it"
     return check.unless(is_inside and is_beside, case)
 
 
@@ -171,7 +173,7 @@ def number_of_combinations() -> Check:
     f = math.factorial
     pairs = [(n, r) for n in range(13) for r in range(n + 1)]
     outcomes = [len([*combinations(range(n), r)]) * f(r) * f(n - r) == f(n) for n, r in pairs]
-    message = "(5! / 2!) 3! is 360, but five objects have 10 pairs"
+    message = "read from left to right, the formula gives (5! / 2!) 3! = 360 pairs of five objects, but there are 10"
     check = exhausted("combinations of at most 12 objects", outcomes, message)
     return check.misprinted(f(5) // f(2) * f(3) != len([*combinations(range(5), 2)]), "N! / (r! (N - r)!)")
 
@@ -193,8 +195,9 @@ def edge_by_star_test(cases: int = 1) -> Check:
             # If more than two points have the image of the pair, only the two outer ones of them can be an edge.
             is_edge = is_corner and {*pair} == {projection.line[0], projection.line[-1]}
             checks.append(as_corrected(projection.images) == is_corner and is_edge == (pair in edges))
-    message = f"for all {len(checks)} pairs, the corrected star test tells if the image is a corner of the hull of all "
-    message += "images; the edges are exactly the pairs with such an image that are the outer points on their line"
+    message = f"for each of {len(checks)} pairs of points, the corrected star polygon test tells if the image of the "
+    message += "pair is a corner of the hull of all images; the edges of the hull are exactly the pairs with such an "
+    message += "image whose points are the outermost ones on their line"
     return searched(SETS[3], cases, checks, message)
 
 
@@ -210,7 +213,8 @@ def edge_by_image(cases: int = 1) -> Check:
 
 @claim("appel-will.54", "appel-will.142", full=200)
 def corrected_star_test(cases: int = 1) -> Check:
-    return edge_by_star_test(cases).unless(not star_as_captioned().holds, "the test as in the caption of Fig. 12")
+    case = "the test with the rule in the caption of Fig. 12, which finds an edge that the hull does not have"
+    return edge_by_star_test(cases).unless(not star_as_captioned().holds, case)
 
 
 @claim("appel-will.59")
@@ -218,7 +222,7 @@ def star_as_captioned() -> Check:
     points = counterexample_points("one_ray.csv")
     wrong = {*appel_will(points, method=Method(star=as_printed)).edges} - {*exact_hull(points).edges()}
     pairs = ", ".join(f"{points[a]} to {points[b]}" for a, b in sorted(wrong))
-    return refuted(wrong, f"the test finds an edge that the hull does not have: {pairs}")
+    return refuted(wrong, f"with the rule of Fig. 12, the test finds an edge that the hull does not have: {pairs}")
 
 
 # Two collinear sides make one side of the hull, which is no new line.
@@ -237,7 +241,7 @@ def new_lines(cases: int = 10) -> Check:
         return len(polygon) < len(ring) and not edges <= lines
 
     square = [(0, 0), (1, 0), (1, 1), (0, 1)]
-    check = search(NONCONVEX, is_changed, cases, "the hull of each polygon has fewer points and a new line")
+    check = search(NONCONVEX, is_changed, cases, "each hull has fewer points than its polygon, and a new line")
     return check.unless(not is_changed(square), "a square, which is its own hull")
 
 
@@ -257,7 +261,8 @@ def star_test(cases: int = 20) -> Check:
         on_ray = any(on_one_ray(a, b) for a, b in combinations(images, 2))
         return is_outside != holds_origin(images) and (on_ray or as_printed(images) == is_outside)
 
-    return search(IMAGES, is_right, cases, "the senses of rotation tell whether the point is in the hull of each set")
+    message = "for each set of images, the senses of rotation tell whether the tested point is in their hull"
+    return search(IMAGES, is_right, cases, message)
 
 
 @claim("appel-will.55", "appel-will.58", full=5_000)
@@ -271,7 +276,8 @@ def change_of_sense(cases: int = 20) -> Check:
         is_outside = not on_side and sum(crossings) % 2 == 0
         return not holds_origin(images) if is_outside else min(senses) >= 0 or max(senses) <= 0
 
-    message = "a change of sense occurs only at points outside the star polygon, and these are outside its hull"
+    message = "the sense of rotation changes only if the tested point is outside the star polygon; the point is then "
+    message += "also outside the hull of the star polygon"
     return search(IMAGES, is_right, cases, message)
 
 
@@ -283,7 +289,8 @@ def order_on_one_ray(cases: int = 10) -> Check:
         orders = [[near, far], [far, near]]
         return all([p for p in star_polygon([*order, *rest]) if p not in rest] == order for order in orders)
 
-    return search(IMAGES, is_listed_order, cases, "an image and one twice as far can be in either order by angle")
+    message = "if one of two images on a ray is twice as far as the other, either may come first in the star polygon"
+    return search(IMAGES, is_listed_order, cases, message)
 
 
 @claim("appel-will.60", full=1_000)
@@ -292,7 +299,8 @@ def opposite_images(cases: int = 10) -> Check:
         opposite = (*images[:3], (-images[0][0], -images[0][1]))
         return holds_origin(opposite) and not any(as_corrected([*order]) for order in permutations(opposite))
 
-    message = "C is in the hull of three images and one opposite to the first, and the test finds this in any order"
+    message = "C is in the hull of three images and a fourth one opposite to the first; in any order of the four "
+    message += "images, the test finds that C is inside"
     return search(IMAGES, is_inside, cases, message)
 
 
@@ -305,8 +313,9 @@ def step_as_printed(step: str) -> Check:
     entries, corrected_entries = ([loop.entries for loop in h.table.loops] for h in (hull, corrected))
     wrong = hull.fault or entries != corrected_entries
     pairs = enumerate(zip(entries, corrected_entries, strict=False), 1)
-    begins = (f"loop {n} begins with line {abs(a[0])}, but {abs(b[0])} is printed" for n, (a, b) in pairs if a != b)
-    return slip(not wrong, corrected.table.closed, reading, hull.fault or next(begins, "the same loops"))
+    begins = (f"loop {n} begins with line {abs(a[0])} instead of {abs(b[0])}" for n, (a, b) in pairs if a != b)
+    message = f"with the printed step number, {hull.fault or next(begins, 'the loops are the same')}"
+    return slip(not wrong, corrected.table.closed, reading, message)
 
 
 @claim("appel-will.148")
@@ -315,7 +324,8 @@ def limit_of_searches() -> Check:
     hull = appel_will(points, method=printed("step9", "step3"))
     ring = exact_hull(points).polygon
     endless = sum(_comes_again(hull.edges, ring[k - 2], ring[k - 1], ring[k]) for k in range(len(ring)))
-    message = f"{endless} of {len(ring)} searches in a pentagon never end; with a limit: {hull.fault}"
+    message = f"{endless} of {len(ring)} searches for a loop around a pentagon never end; with a limit, the method "
+    message += f"stops and reports: {hull.fault}"
     return exhibited(endless > 0 and hull.fault.endswith("does not return to its start"), message)
 
 
@@ -344,5 +354,6 @@ def planar_graph(cases: int = CASES) -> Check:
         for _ in hull.vertices:
             reached |= {end for side in directed if reached & {*side} for end in side}
         checks.append(reached == {*hull.vertices} and len(reached) - len(hull.edges()) + len(hull.facets) == 2)
-    message = f"{len(checks)} conditions hold: faces are rings, connected, and in a ring at each vertex; V - E + F = 2"
+    message = f"{len(checks)} conditions hold: the edges of a face form a ring, the graph is connected, the faces at "
+    message += "each vertex form a ring, and V - E + F = 2"
     return searched(SETS[3], cases, checks, message)

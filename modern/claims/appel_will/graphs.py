@@ -30,7 +30,7 @@ def faces_from_graph(cases: int = CASES) -> Check:
         found_faces = {cycle for cycle in _cycles(graph) if _connected(graph, cycle)}
         checks.append(found_faces == {frozenset(facet.polygon) for facet in judge.facets})
         faces += len(found_faces)
-    message = f"{faces} faces of {cases} drawn sets and three fixed ones follow from their edges alone"
+    message = f"the edges alone determine the {faces} faces of the hulls of {cases} drawn sets and of three fixed ones"
     return searched(SETS[3], cases, checks, message)
 
 
@@ -70,7 +70,7 @@ def coplanar_loops(cases: int = CASES) -> Check:
         threes = [{*a, *b} for a, b in combinations(judge.edges(), 2) if len({*a, *b}) == 3]
         checks += [sum(three <= {*facet.polygon} for facet in judge.facets) <= 1 for three in threes]
         checks.append(len({facet.plane for facet in judge.facets}) == len(judge.facets))
-    message = "no two edges with a common end have two common loops, and no two loops are coplanar"
+    message = "no two edges with a common end are both in two loops, and no two loops are coplanar"
     return searched(SETS[3], cases, checks, f"in {cases} drawn sets and three fixed ones, {message}")
 
 
@@ -79,7 +79,7 @@ def outline(cases: int = CASES) -> Check:
     # The normals of the faces have components of at most 200, so that no face is parallel to this direction.
     eye = (1, 10**3, 10**6)
     outcomes = [is_closed_curve(_on_outline(s.points, s.judge, eye)) for s in sampled_sets(3, cases)]
-    message = f"in the direction {eye}, the edges that produce the outline form one closed curve"
+    message = f"seen in the direction {eye}, the edges that produce the outline form one closed curve"
     check = searched(SETS[3], cases, outcomes, message)
     edges = _on_outline(CUBE, exact_hull(CUBE), (0, 0, 1))  # type: ignore[arg-type]
     case = f"a cube seen along an edge: {len(edges)} edges produce the outline and form no single closed curve"
@@ -132,7 +132,7 @@ def _faces(points: Sequence[Point], judge: ExactHull) -> Iterator[bool]:
 
 
 _PROPERTIES = {
-    "2": (_cones, "the planes at each vertex meet only there, and all points are on the inner side of these planes"),
-    "3": (_dihedral, "each edge is on exactly two faces, which meet at less than 180 degrees"),
-    "4": (_faces, "all other corners of a face are on the same side of each of its sides"),
+    "2": (_cones, "the planes of the faces at a vertex meet only in it, and all points are on their inner sides"),
+    "3": (_dihedral, "each edge is on exactly two faces, whose angle inside the hull is less than 180 degrees"),
+    "4": (_faces, "the line of each side of a face has all other corners of the face on one side"),
 }

@@ -28,11 +28,11 @@ def inside_triangle() -> Proof:
     area, weights = bracket(a, b, c), (bracket(b, c, p), bracket(c, a, p), bracket(a, b, p))
     combined = [dot(weights, [corner[k] for corner in (a, b, c)]) for k in (0, 1)]
     return Proof.of(
-        "a point inside a triangle is a combination of the corners with positive weights, whose signs are the senses "
-        "of the sides",
-        "The senses about the sides, divided by that of the corners, are the weights of the point as a combination of "
-        "the corners. They are unique because the corners are not collinear. A point is inside exactly if all weights "
-        "are positive.",
+        "a point inside a triangle is a combination of the corners with positive weights; a weight is positive if a "
+        "side, seen from the point, turns in the sense of the corners",
+        "The sign of a determinant of three points is their sense of rotation. The determinants of each side and the "
+        "point, divided by that of the corners, are the weights of the point as a combination of the corners. The "
+        "weights are unique because the corners are not collinear. A point is inside exactly if all are positive.",
         *(Step("the point is the combination", {}, zero(area * p[k] - combined[k])) for k in (0, 1)),
         Step("the weights have the sum 1", {}, zero(area - total(weights))),
     )
@@ -51,7 +51,8 @@ def triangle_area() -> Proof:
         return a[0] * (b[1] - c[1]) - a[1] * (b[0] - c[0]) + (b[0] * c[1] - b[1] * c[0])
 
     return Proof.of(
-        "half of the determinant is the area, positive if counterclockwise, negative if clockwise, 0 if collinear",
+        "half of the determinant is the area of the triangle; it is positive if the corners run counterclockwise, "
+        "negative if they run clockwise, and 0 if they are collinear",
         "Let the vector u be the first side. The third corner is the first corner plus a multiple of u plus h times "
         "the vector u turned left by 90 degrees. The determinant equals h times the square of the length of u. This "
         "product is the base times the signed height, because the turned vector is as long as u.",
@@ -71,11 +72,12 @@ def lines_and_planes() -> Proof:
     value_terms = term("plane"), term("unit", t)
     ends = [(axis, a + length * c - b, length * c - (b - a)) for axis, a, b, c in zip("xyz", p, q, n, strict=True)]
     return Proof.of(
-        "t is the distance from the first point of a line with a unit direction, and a x + b y + c z + d is the "
-        "distance from a plane with the unit normal (a, b, c)",
-        "The squares of a, b and c have the sum 1, because the square of the length is that of the differences. The "
-        "direction times the length leads from the start to the end, and times t to the point at the distance t. The "
-        "equation of a plane is 0 at its points, and t at the distance t along its normal.",
+        "on a line with a unit direction, t is the distance from the first point; with the unit normal (a, b, c), "
+        "a x + b y + c z + d is the distance from the plane",
+        "The squares of a, b and c have the sum 1, because a, b and c are the differences of the coordinates of two "
+        "points, divided by the distance of the points. The direction times this distance leads from the first point "
+        "to the second, and the direction times t leads to the point at the distance t. The value a x + b y + c z + d "
+        "is 0 at the points of the plane, and t at the distance t along its normal.",
         *(Step("t = l is the end", {axis: zero(printed)}, zero(end), (term(axis),)) for axis, end, printed in ends),
         Step("t is the distance", unit, zero(dot(way, way) - t * t), (term("unit", t * t),)),
         Step("a plane contains its points", line, zero(dot(n, q) - dot(n, p)), (term("line"),)),
@@ -89,8 +91,9 @@ def product_of_lines() -> Proof:
     steps = [Step("the product is perpendicular", {}, zero(dot(cross(u, v), line))) for line in (u, v)]
     square = dot(cross(u, v), cross(u, v)) + dot(u, v) * dot(u, v) - dot(u, u) * dot(v, v)
     steps.append(Step("its square is that of the lines less that of their dot product", {}, zero(square)))
-    argument = "The lines span the surface. By Lagrange's identity their product is 0 only for parallel lines."
-    return Proof.of("the product of two lines of a surface is normal to it", argument, *steps)
+    argument = "The product is perpendicular to both lines, which span the surface. By Lagrange's identity it is 0 "
+    argument += "only for parallel lines."
+    return Proof.of("the cross product of two lines of a surface is normal to the surface", argument, *steps)
 
 
 @proves("nakamae-nishita.34")
@@ -118,7 +121,8 @@ def fewer_pairs() -> Proof:
     terms = (term("m m m"), term("m", 6), term("m", 2), term("m"), *squares)
     return Proof.of(
         "six or more points have fewer pairs than triples",
-        "Six times the number of triples minus that of pairs is n (n - 1) (n - 5), where n = 6 + m.",
+        "The number of triples of n points is larger than that of pairs by n (n - 1) (n - 5) / 6. This is positive for "
+        "n = 6 + m if m is not negative.",
         Step("the difference is positive", {"m": not_negative(m)}, positive(difference), terms),
     )
 
@@ -127,7 +131,7 @@ def fewer_pairs() -> Proof:
 @proves("appel-will.79", conclusion="the hull stays the same if points inside it are added")
 def points_of_hull() -> Proof:
     return Proof.of(
-        "a convex combination of points is on the inner side of every plane that has all these points on this side",
+        "a convex combination of points is on the inner side of every plane with all these points on its inner side",
         "The points of the hull are the combinations of the vertices, and all vertices are on the inner side of each "
         "plane. So the object determines its hull, and the hull stays the same if any of the infinitely many points "
         "inside it is added to the object, for example as the apex of a pit.",
@@ -152,12 +156,13 @@ def three_planes() -> Proof:
     volume, square = dot(u, cross(v, w)), dot(u, u)
     opposite = {"u": positive(side), "-u": positive(-side)}
     return Proof.of(
-        "if three planes meet at a vertex of the hull, all lines there are outside corners",
-        "The object near the vertex lies in an open half-space. Three planes divide space into eight cones of edges "
-        "u or -u, v or -v, w or -w, and the half-space contains u or -u but not both. So the object fills one cone, "
-        "say of u, v and w, and [u v w] is positive. Its inward normals at u are w x u and u x v. Their triple product "
-        "with u is the square of u times [u v w], so u is an outside corner, and so are v and w. Fewer planes, or "
-        "three through one line, make no vertex.",
+        "if three planes of the object meet at a vertex of its hull, all lines at this vertex are outside corners",
+        "Near the vertex, the object lies in an open half-space. Three planes divide space into eight cones, with the "
+        "edges u or -u, v or -v, and w or -w. The half-space contains u or -u but not both. So the object fills one "
+        "cone, say that of u, v and w, whose triple product [u v w] is positive. The inward normals of the two planes "
+        "that meet in u are w x u and u x v. The triple product of u and these normals is the square of u times "
+        "[u v w]. It is positive, so that u is an outside corner, and so are v and w. Fewer planes, or three planes "
+        "through one line, make no vertex.",
         Step("no half-space contains u and -u", opposite, IMPOSSIBLE, (term("u"), term("-u"))),
         Step("it is the square times [u v w]", {}, zero(dot(u, cross(cross(w, u), cross(u, v))) - square * volume)),
     )
@@ -183,12 +188,13 @@ def inside_corner() -> Proof:
     i, k, second = (point(name, 3) for name in "ikl")
     triple = dot(i, cross(k, second))
     return Proof.of(
-        "the triple product is negative exactly at inside corners, if the line runs counterclockwise on the first "
-        "surface; otherwise it has the opposite sign",
+        "if the line runs counterclockwise on the first surface, the triple product is negative exactly at inside "
+        "corners; if the line runs clockwise there, the product has the opposite sign",
         "Seen from outside, the first surface, with the inward normal K, is to the left of the line I, and the second, "
-        "with the normal L, to its right. So the second surface extends from the line in the direction L x I. Its "
-        "product with K is negative exactly if the second surface is on the outer side of the first, where the angle "
-        "inside the object exceeds 180 degrees. A reversed line runs counterclockwise on the other surface.",
+        "with the normal L, to its right. So the second surface extends from the line in the direction L x I. The "
+        "product of this direction with K is negative exactly if the second surface is on the outer side of the first, "
+        "where the angle inside the object exceeds 180 degrees. A reversed line is counterclockwise on the "
+        "other surface.",
         Step("the product of K and L x I is [IKL]", {}, zero(dot(k, cross(second, i)) - triple)),
         Step("[ILK] has the opposite sign", {}, zero(dot(i, cross(second, k)) + triple)),
     )
@@ -197,10 +203,11 @@ def inside_corner() -> Proof:
 @proves("appel-will.73", "appel-will.74")
 def outside_corners() -> Proof:
     return Proof.of(
-        "a vertex of the hull is on at least three outside corners, and so no point on only one is such a vertex",
-        "Some plane touches the object only at the vertex. Cut the object near it by a parallel plane. The hull "
-        "of the section has at least three corners. By the step, the section is not concave at a corner of its hull, "
-        "so that the line from the vertex to this corner is an outside corner of the object.",
+        "a vertex of the hull is on at least three outside corners, so that a point on only one is no such vertex",
+        "Some plane touches the object only at the vertex. Cut the object near the vertex by a parallel plane. The "
+        "hull of this section has at least three corners. At a corner of its hull the section is not concave, because "
+        "no linear function decreases along two directions u and v and also along -u-v. So the line from the vertex "
+        "to this corner is an outside corner of the object.",
         *concave_point().steps,
     )
 
@@ -213,6 +220,7 @@ def concave_point() -> Proof:
     return Proof.of(
         "a concave point of a surface is no vertex of the hull",
         "At a vertex of the hull some linear function L decreases along both sides u and v of the surface. At a "
-        "concave point the surface contains points in the direction -u-v, along which L would have to decrease too.",
+        "concave point the surface contains points in the direction -u-v, along which L would have to decrease too. "
+        "That is impossible.",
         Step("L cannot decrease along u, v and -u-v", hypotheses, IMPOSSIBLE, terms),
     )

@@ -65,7 +65,8 @@ def changes_of_hull() -> Check:
     block = solid_of_cubes([cube for cube in product(range(3), repeat=3) if cube != (1, 1, 2)])
     changes = [_changes(solid) for solid in (fig_4(), twisted(), block)]
     deleted, new_lines, new_planes = changes[0]
-    message = f"the hull of Fig. 4: {deleted} points deleted, new lines: {new_lines}, new planes: {new_planes}"
+    message = f"the hull of the polyhedron of Fig. 4 deletes {deleted} points; it has new lines ({new_lines}) and new "
+    message += f"planes ({new_planes})"
     others = changes[1][0] == 0 < min(changes[1][1:]) and changes[2][0] > 0 == max(changes[2][1:])
     case = "a twisted prism, all points of which remain, and a block with a pit, whose hull has no new line or plane"
     return exhibited(min(changes[0]) > 0, message).unless(others, case)
@@ -93,7 +94,8 @@ def surface_three() -> Check:
     (result,) = (result for result in results_of(PAPERS[0]) if result.id == "fig4-topological-map")
     printed = [*corrected[:2], numbers_in(result.printed[2]), *corrected[3:]]
     alone = sorted(sorted(line) for line, count in _surfaces_at_lines(solid).items() if count == 1)
-    message = f"lines on one surface only: {', '.join(f'{a + 1}-{b + 1}' for a, b in alone)}"
+    message = "with the printed order, these lines are on one surface only, although each line should be on two: "
+    message += ", ".join(f"{a + 1}-{b + 1}" for a, b in alone)
     is_refuted = alone and printed == [[k + 1 for k in face] for face in solid.surfaces]
     return slip(not is_refuted, is_sphere(corrected), ", ".join(map(str, corrected[2])), message)
 
@@ -101,7 +103,7 @@ def surface_three() -> Check:
 @claim("appel-will.155")
 def inside_corner_at_vertex() -> Check:
     lost = ", ".join(str(k + 1) for k in deleted_vertices(solid_in("crown.off"), "any"))
-    return exhibited(lost, f"point {lost} of the crown is deleted although it is a vertex of the hull")
+    return exhibited(lost, f"point {lost} of a pyramid on a star is deleted although it is a vertex of the hull")
 
 
 def deleted_vertices(solid: Solid, rule: Rule) -> list[int]:
@@ -113,7 +115,7 @@ def deleted_vertices(solid: Solid, rule: Rule) -> list[int]:
 @claim("appel-will.72", rule="any", full=2_000)
 @claim("appel-will.75", rule="concave", full=2_000)
 def deletion_in_prisms(rule: Rule, cases: int = 5) -> Check:
-    message = "no vertex of the hull of a prism is deleted"
+    message = "applied to prisms, the rule of the statement deletes no vertex of the hull"
     return search(RINGS, lambda ring: not deleted_vertices(prism(ring), rule), cases, message)
 
 
@@ -159,7 +161,7 @@ def preprocessing_saves() -> Check:
         counts.append((hull.projections, stars[0]))
     plain, fewer = (f"{projections} projections and {tests} star polygon tests" for projections, tests in counts)
     saved = all(after < before for before, after in zip(*counts, strict=True))
-    return exhibited(saved, f"in Fig. 4, {plain}; after the points on inside corners are deleted, {fewer}")
+    return exhibited(saved, f"Fig. 4 needs {plain}; after the points on inside corners are deleted, it needs {fewer}")
 
 
 @claim("appel-will.154")
@@ -171,7 +173,8 @@ def minimum_data() -> Check:
     of_sets = {pair for pair in shared if len(pair) == 2} == {*_surfaces_at_lines(figure)}
     message = f"a twisted prism and its hull have the same {len(judge.vertices)} points but different lines"
     check = exhibited(differ and len(judge.vertices) == len(solid.points), message)
-    case = "a cube, whose points are enough, and Fig. 4, whose lines follow from its surfaces as sets of points"
+    case = "a cube, whose points are enough, and the polyhedron of Fig. 4, whose lines follow from the points of its "
+    case += "surfaces in any order"
     return check.unless(of_sets and (len(cube.vertices), len(cube.facets)) == (8, 6), case)
 
 
@@ -189,7 +192,7 @@ def hulls_of_surfaces() -> Check:
     vertices, apex = exact_hull(solid.points).vertices, len(TETRAHEDRON)
     surfaces = [surface for surface in solid.surfaces if apex in surface]
     own = all(s.index(apex) in exact_hull([solid.points[k] for k in s]).vertices for s in surfaces)
-    message = "the apex of a pit is a vertex of the hulls of its surfaces, but not of the hull"
+    message = "the apex of a pit is a vertex of the hulls of the pit's surfaces, but not of the hull of the object"
     check = exhibited(own and apex not in vertices, message)
     case = "the proved relation that a vertex of the object's hull is a vertex of the hull of each of its surfaces"
     return check.unless(no_combination().check().holds, case)
@@ -219,7 +222,8 @@ def product_of_directions() -> Check:
     u, v = minus(p, corner), minus(r, corner)
     products = dot(u, v), dot(u, (0, 1, 0))
     is_refuted = any(cross(u, v)) and products[0] < 0 == products[1]
-    return refuted(is_refuted, f"the product is {products[0]} for an obtuse angle, and {products[1]} for a right one")
+    message = f"the scalar product is {products[0]} for an obtuse angle, and {products[1]} for a right one"
+    return refuted(is_refuted, message)
 
 
 @claim("appel-will.80")
@@ -227,7 +231,7 @@ def figure_of_minimum_data() -> Check:
     (finding,) = (finding for finding in findings(PAPERS[0]) if finding.result.id == "figure-number")
     texts = finding.produced, finding.result.printed, finding.result.corrected
     words, printed, corrected = (" ".join(lines).split() for lines in texts)
-    message = "Fig. 3 shows no polyhedron; Fig. 4 has a list and a map"
+    message = "Fig. 3 shows no polyhedron; Fig. 4 has a vertex list and a topological map"
     return slip(words == printed, words == corrected, "Fig. 4", message)
 
 
@@ -248,5 +252,5 @@ def product_with_repeated_vector() -> Check:
     with_i = [triple_product((a, b, c), (d, e, f), (a, b, c)) for a, d, _, b, e, _, c, f, _, _ in rows]
     with_l = [triple_product((a, b, c), (d, e, f), (g, h, i)) for a, d, g, b, e, h, c, f, i, _ in rows]
     shown_i, shown_l = (", ".join(map(str, values)) for values in (with_i, with_l))
-    message = f"the determinants are {shown_l} with l, and {shown_i} with i as displayed"
+    message = f"the determinants of Fig. 18 are {shown_l} with the index l, but {shown_i} with the index i as displayed"
     return slip(any(with_i), with_l == [row[-1] for row in rows], "l", message)

@@ -116,7 +116,8 @@ def pieces_against_rays(cases: int = 3, scenes: Generator[tuple[Box, ...]] = SCE
 
     All edges of the boxes are divided into pieces. Pieces of edges between two back faces are never visible.
     """
-    message = "boxes hide none of three points of each visible piece of an edge, and all three of each other piece"
+    message = "of three points of each piece of an edge, boxes hide none if the method calls the piece visible, and "
+    message += "all three otherwise"
     return search(scenes, _agrees, cases, message)
 
 
@@ -199,8 +200,9 @@ def divided_box(cases: int = 2) -> Check:
         on_box = all(sum(a == b in (0, s) for (a, b), s in zip(e, division, strict=False)) == 2 for e in lines[0])
         return on_box and together == whole < apart
 
-    message = "the visible lines of the parts are as long as those of the whole box and on its edges, but longer with "
-    return search(DIVISIONS, restores, cases, f"{message}ghost lines")
+    message = "if the ghost lines are removed, the visible lines of a divided box are on the edges of the whole box "
+    message += "and as long as its visible lines; with the ghost lines they are longer"
+    return search(DIVISIONS, restores, cases, message)
 
 
 def _visible_lines(drawing: Drawing) -> list[list[tuple[Fraction, Fraction]]]:
@@ -228,8 +230,8 @@ def faces_and_edges(cases: int = 4) -> Check:
     # Some faces of the cuboid are edge-on if a component of the direction of view is 0.
     cuboid_: tuple[Point, ...] = tuple((x, y, z) for x in (0, 2) for y in (0, 3) for z in (0, 4))
     views = [*VIEWS.cases(cases), *((cuboid_, way) for way in directions)]
-    message = "edges of two front faces are inner edges, and edges of one front face form the contour"
-    message += f", also for a cuboid seen from {len(directions)} directions"
+    message = "edges that belong to two front faces are inner edges, and edges that belong to one front face form the "
+    message += f"contour; this is also true for a cuboid seen from {len(directions)} directions"
     return searched(VIEWS, cases, [_is_classified(*view) for view in views], message)
 
 
@@ -256,5 +258,5 @@ def nearer_contour_inside(cases: int = 3) -> Check:
     # A point of the frustum is hidden if its image is inside the square contour of the box, from 2 to 6 in x and y.
     points = [(piece.visible, at) for piece, at in samples(drawing) if piece.solid == 0]
     correct = all(visible != (max(abs(x - 4), abs(y - 4)) < 2) for visible, (x, y, _) in points)
-    case = f"the top of a frustum behind a box: its {whole} sides are hidden without meeting the contour of the box"
+    case = f"the {whole} sides of the top of a frustum, which a box hides although they do not meet its contour"
     return pieces_against_rays(cases, NESTED).unless(correct and whole, case)

@@ -32,10 +32,11 @@ def front_face() -> Proof:
     return Proof.of(
         "a convex face is a front face if and only if two successive edges turn clockwise in the projection",
         "The eye is at the origin and looks along z, x points to the right and y down, so that a positive area is "
-        "clockwise. The corners of a face run clockwise seen from outside, and so the normal (b - a) x (c - a) points "
-        "inward. The eye sees the outer side if the product of this normal with the way from the eye to a is positive. "
-        "All corners are in front of the eye, so their depths are positive. In a parallel projection along z, the way "
-        "from the eye is z itself. All pairs of successive edges of a convex face turn in the same sense.",
+        "clockwise. The corners a, b, c, ... of a face run clockwise seen from outside, so that the normal (b - a) x "
+        "(c - a) points inward. The eye sees the outer side if the product of this normal with the way from the eye to "
+        "a is positive. All corners are in front of the eye, so their depths are positive. In a parallel projection "
+        "along z, the way from the eye is z itself. All pairs of successive edges of a convex face turn in the "
+        "same sense.",
         *(
             Step(
                 f"seen from {side}, the corners turn {sense} in the projection",
@@ -80,12 +81,12 @@ def overlap_by_neighbours() -> Proof:
     (t,) = variables("t")
     x = tuple((1 - t) * a + t * b for a, b in zip(p, q, strict=True))
     return Proof.of(
-        "a segment on the line of a side overlaps the side if and only if each of the two adjacent columns has a 1 in "
-        "one of its two rows",
+        "a segment on the line of a side overlaps the side if and only if the columns of both adjacent sides have a 1 "
+        "in one of the two rows of the segment's ends",
         "Let o, p, q and r be successive corners of a contour, none of them straight, and let x = p + t (q - p) be an "
-        "end of the segment. The values of (1) for x in the columns of o p and q r are t times the value at q, and 1 - "
-        "t times that at p, which are positive. So these columns have a 1 if t > 0 and if t < 1. A segment of the line "
-        "overlaps the side if and only if t > 0 at one of its ends and t < 1 at one of its ends.",
+        "end of the segment. The values of formula (1) at x for the sides o p and q r are t times the value at q, and "
+        "1 - t times that at p, which are positive. So the column of o p has a 1 if t > 0, and that of q r if t < 1. A "
+        "segment on p q overlaps the side if and only if t > 0 at one of its ends and t < 1 at one of its ends.",
         Step("the value for o p is t times that at q", {}, zero(bracket(o, p, x) - t * bracket(o, p, q))),
         Step("the value for q r is 1 - t times that at p", {}, zero(bracket(q, r, x) - (1 - t) * bracket(q, r, p))),
     )

@@ -116,16 +116,17 @@ def convex_contour(cases: int = CASES) -> Check:
 
 @claim("nakamae-nishita.13", full=25)
 def correlations(cases: int = CASES) -> Check:
-    checks, counts = [], dict.fromkeys(("apart", "encloses", "partly"), 0)
+    checks, counts = [], dict.fromkeys(("apart", "one encloses the other", "partly overlapping"), 0)
     for v, w in pairs(cases):
         encloses = any(all(inside(p, a) for p in b) for a, b in ((v, w), (w, v)))
         of_w = [values(lines_of(w), [(*a, 0, 1), (*b, 0, 1)]) for a, b in sides(v)]
         # A part of a side of V is inside V', but neither of the two polygons is.
         partly = any(ends is not None and clipped(ends, 0, 1) != CLEAR for ends in of_w) and not encloses
-        relations = {"apart": not overlap(v, w), "encloses": encloses, "partly": partly}
+        relations = {"apart": not overlap(v, w), "one encloses the other": encloses, "partly overlapping": partly}
         checks.append(sum(relations.values()) == 1)
         counts = {name: n + relations[name] for name, n in counts.items()}
-    message = "each pair has one correlation: " + ", ".join(f"{name} {number}" for name, number in counts.items())
+    shown = ", ".join(f"{name}: {number}" for name, number in counts.items())
+    message = f"each pair of contours is in exactly one of three relations ({shown})"
     return searched(POLYGONS, 2 * cases, [*checks, *counts.values()], message)
 
 
@@ -149,7 +150,7 @@ def formula_3(cases: int = CASES) -> Check:
     numbers = Counter(d for d, _ in meetings)
     outcomes = [d == expected for d, expected in meetings] + [{-4, -2, -1, 0} == {*numbers}]
     shown = ", ".join(f"{d} for {number}" for d, number in numbers.items())
-    message = f"d is right for {len(meetings)} pairs of segments: {shown}"
+    message = f"d has the stated value for {len(meetings)} pairs of segments: {shown}"
     return searched(POLYGONS, 2 * cases, outcomes, message)
 
 
@@ -157,7 +158,7 @@ def formula_3(cases: int = CASES) -> Check:
 def formula_3_in_line(cases: int = CASES) -> Check:
     d = tables_of(SQUARE, ((2, 2), (2, 4), (6, 4), (6, 2))).crossing_number(1, 1)
     check = formula_3(cases)
-    return check.unless(d == 0, "the sides (0, 4) (4, 4) and (2, 4) (6, 4), which overlap, and d is 0")
+    return check.unless(d == 0, "the sides from (0, 4) to (4, 4) and (2, 4) to (6, 4), which overlap although d is 0")
 
 
 @claim("nakamae-nishita.60", "nakamae-nishita.37")
@@ -174,18 +175,19 @@ def formula_5() -> Check:
         algebra.Step("it is (x - p) n", {}, algebra.zero(printed - algebra.dot(algebra.minus(x, p), outward))),
     )
     argument = (
-        "The value is (x - p) n with n = (r - p) x (q - p), which points outward because the corners run clockwise as "
-        "seen from outside. So it is positive in front of the face. A vertex behind the front face around its image is "
-        "behind V, because it is not inside V. If a vertex of V' were in front of V and another one behind it, the "
-        "segment between them would meet V, because V is convex and its contour encloses that of V'. So one vertex "
-        "decides for all."
+        "The value of formula (5) for a vertex x and corners p, q and r of a face is (x - p) n with n = (r - p) x (q - "
+        "p), which points outward because the corners run clockwise as seen from outside. So the value is positive in "
+        "front of the face. A vertex behind the front face around its image is behind V, because it is not inside V. "
+        "If a vertex of V' were in front of V and another one behind it, the segment between them would meet V, "
+        "because V is convex and its contour encloses that of V'. So one vertex decides for all of them."
     )
     # The corners of this face run clockwise as seen from above.
     face = plane_through((0, 0, 0, 1), (0, 4, 0, 1), (4, 4, 0, 1))
     above, on, below = (sign(height(face, (1, 2, z, 1))) for z in (1, 0, -1))
-    message = "the value is positive if the vertex is nearer than the face around it, and has one sign for all of V'"
+    message = "the value of formula (5) is positive if the vertex is nearer than the face around its image; if the "
+    message += "contour of V encloses that of V', the value has the same sign for all vertices of V'"
     check = proved(argument, [step.is_valid() for step in steps], message)
-    return check.unless(above > on == 0 > below, "a vertex in the face, for which the value is 0")
+    return check.unless(above > on == 0 > below, "a vertex in the face, for which formula (5) is 0")
 
 
 @cache
@@ -235,9 +237,10 @@ def table_properties(number: str, cases: int = CASES) -> Check:
             premises += sum(premise for premise, _ in found)
             touching |= touches
     units = {"3": "segments without -1", "4": "vertices", "LP": "cases of the four properties"}
-    message = f"true for the {premises} of {len(checks)} {units.get(number, 'pairs of contours')} that meet the premise"
+    unit = units.get(number, "pairs of contours")
+    message = f"the premise is satisfied for {premises} of {len(checks)} {unit}; in all of these, the conclusion holds"
     check = searched(POLYGONS, 2 * cases, checks, message)
-    return check.unless(touching, "a side without -1 that touches the other polygon, where d is -2 or -1")
+    return check.unless(touching, "a side without -1 that touches the other polygon, so that d is -2 or -1")
 
 
 def _property(
@@ -280,8 +283,8 @@ def intersection_counts(cases: int = CASES) -> Check:
             else:
                 counts.add(len(places))
                 over_two += by_3 > 2
-    check = searched(POLYGONS, 2 * cases, [counts == {0, 1, 2}], "segments meet a contour in 0, 1 or 2 points")
-    case = f"segments along a side ({along}), and those through corners that (3) counts twice ({over_two})"
+    check = searched(POLYGONS, 2 * cases, [counts == {0, 1, 2}], "the segments meet a contour in 0, 1 or 2 points")
+    case = f"{along} segments along a side, and {over_two} segments through corners, which formula (3) counts twice"
     return check.unless(along and over_two, case)
 
 
@@ -294,6 +297,6 @@ def segments_within(cases: int = CASES) -> Check:
                 values_at_w = values(lines_of(w), [(*a, 0, 1), (*b, 0, 1)])
                 checks.append(values_at_w is not None and clipped(values_at_w, 0, 1) != CLEAR)
                 partly_inside += not (inside(a, w) and inside(b, w))
-    message = f"in {len(checks)} crossings of a side of V with a diagonal of V', a part of the side is inside"
+    message = f"in {len(checks)} crossings of a side of V with a diagonal of V', a part of the side is inside V'"
     check = searched(POLYGONS, 2 * cases, checks, message)
-    return check.unless(partly_inside, f"the whole segment, which is not inside in {partly_inside} crossings")
+    return check.unless(partly_inside, f"{partly_inside} crossings in which the side of V is not wholly inside V'")

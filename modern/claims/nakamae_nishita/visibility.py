@@ -28,7 +28,7 @@ def hidden_contour_edges(cases: int = 3) -> Check:
     check = pieces_against_rays(cases)
     both = drawing.relations[0].by == BY_CROSSING and _hidden(drawing, INNER) and _hidden(drawing, CONTOUR)
     behind = edges_wholly_behind()
-    case = f"contour edges of the farther box, which are hidden, and a box partly behind a wall: {behind.message}"
+    case = f"hidden contour edges of the farther box, and by a box partly behind a wall: {behind.message}"
     return check.unless(both and not behind.holds, case)
 
 
@@ -77,14 +77,15 @@ def indices(cases: int = 3) -> Check:
             marks = clipped(of_contour, 0, 1).marks if of_contour else ()
             checks.append(marks == by_six)
             ways.add(tuple(index for _, index in marks))
-    message = f"of {len(checks)} segments, some enter with the index 1, leave with -1, or do both with 2 and -2"
+    message = f"of {len(checks)} segments, some enter a contour with the index 1, some leave it with the index -1, and "
+    message += "some do both, with the indices 2 and -2"
     # An intersection with the index -1 is alone on its segment.
     check = searched(_CONTOURS, cases, [*checks, ways == {(), (1,), (-1,), (2, -2)}], message)
     # The diagonal of the square.
     ends, contour = ((-2, -2, 0, 1), (6, 6, 0, 1)), [(x, y, 0, 1) for x, y in SQUARE]
     diagonal = values(lines_of(SQUARE), ends)
     missed = diagonal and as_printed(diagonal, 0, 1, ends, contour) == CLEAR != clipped(diagonal, 0, 1)
-    return check.unless(missed, "a segment through two corners of a square, for which no d is -4")
+    return check.unless(missed, "a segment through two corners of a square, for which d of formula (3) is never -4")
 
 
 _CONTOURS = replace(POLYGONS, name="a square and convex polygons, coordinates -2 to 6; segments between 16 points")
@@ -100,10 +101,11 @@ def formula_4() -> Check:
     signs = {**signs, "nearer": algebra.positive(s - t)}
     farther = algebra.Step("dr > 0 if s > t", signs, algebra.positive(value_of_4), (algebra.term("s nearer u"),))
     crossing = _two_boxes((1, 3, 0)).relations[0]
-    argument = "dr = s (s - t) u u, which is negative if P_1 is nearer, and positive if P_2 is nearer."
+    argument = "Let the points P_1 and P_2 be at s u and t u from the eye P_0. Then formula (4) gives dr = s (s - t) u "
+    argument += "u, which is negative if P_1 is nearer, and positive if P_2 is nearer."
     decided = (crossing.by, crossing.nearer) == (BY_CROSSING, 1)
-    check = proved(argument, [nearer.is_valid(), farther.is_valid()], "the sign of (4) tells the nearer point")
-    case = "two boxes that touch: the value is 0, and only a separating plane decides"
+    check = proved(argument, [nearer.is_valid(), farther.is_valid()], "the sign of formula (4) tells the nearer point")
+    case = "two boxes that touch: formula (4) is 0, and only a separating plane decides which box is nearer"
     return check.unless(decided and _undecided_if_touching(), case)
 
 
@@ -120,8 +122,8 @@ def nearer_polyhedron(cases: int = 3) -> Check:
         relations = [relation for relation in drawn(boxes).relations if relation.by == BY_CROSSING]
         return all(r.nearer == order for r in relations for order in orders(boxes[r.v], boxes[r.w]))
 
-    check = search(SCENES, have_one_order, cases, "the order of two boxes is the same on all their lines of sight")
-    return check.unless(_undecided_if_touching(), "two boxes that touch at the intersection: formula (4) is 0")
+    check = search(SCENES, have_one_order, cases, "of two boxes, the same one is nearer on all their lines of sight")
+    return check.unless(_undecided_if_touching(), "two boxes that touch where their images meet: formula (4) is 0")
 
 
 @claim("nakamae-nishita.42", full=100)
@@ -138,7 +140,7 @@ def three_conditions(cases: int = 3) -> Check:
             courses += [course] if len(course) > 1 else []
     outcomes = [{*courses} == {(False, True), (True, False), (False, True, False)}]
     check = searched(_CONTOURS, cases, outcomes, f"{len(courses)} segments enter a contour, leave it, or do both")
-    return check.unless(touching, f"segments that only touch the contour at a corner or along a side ({touching})")
+    return check.unless(touching, f"{touching} segments that only touch the contour at a corner or along a side")
 
 
 @claim("nakamae-nishita.44")
@@ -147,8 +149,10 @@ def sense_of_intersection() -> Check:
     printed = (p[0] - q[0]) * (a[1] - b[1]) - (p[1] - q[1]) * (a[0] - b[0])
     corrected = (q[0] - p[0]) * (a[1] - b[1]) - (q[1] - p[1]) * (a[0] - b[0])
     enters = value(line_through((*p, 1), (*q, 1)), (*a, 1)) < 0 < value(line_through((*p, 1), (*q, 1)), (*b, 1))
-    message = f"for an entering segment the printed product is {printed}, and the corrected one is {corrected}"
-    return slip(printed > 0, enters and corrected > 0, "(P_i+1 - P_i) x (P_A - P_B), with the sign of (6)", message)
+    message = f"for a segment that enters the contour, the product must be positive; the printed one is {printed}, and "
+    message += f"the corrected one is {corrected}"
+    reading = "(P_i+1 - P_i) x (P_A - P_B), with the sign of formula (6)"
+    return slip(printed > 0, enters and corrected > 0, reading, message)
 
 
 @claim("nakamae-nishita.48")
@@ -158,7 +162,7 @@ def edges_wholly_behind() -> Check:
     inner = {(edge.start, edge.end) for edge in scenes[0].solids[1].edges if edge.kind == INNER}
     wrong = shown - correct
     # The contours cross, so that this is case 2 of section 3 and not case 3, in which one contour encloses the other.
-    message = f"{len(wrong)} edges, {len(wrong & inner)} of them inner edges, would be visible through the wall"
+    message = f"{len(wrong)} edges of the box, {len(wrong & inner)} of them inner, would be visible through the wall"
     return refuted(scenes[0].relations[0].by == BY_CROSSING and wrong & inner, message)
 
 
@@ -169,8 +173,9 @@ def table_by_formula_4() -> Check:
     flat = tuple((x, y) for x, y, _ in contour)
     by_1 = [[sign(value(line, (x, y, 1))) for line in lines_of(flat)] for x, y, _ in ends]
     goes_in = -1 in by_1[0] and -1 not in by_1[1]
-    message = "by (4) every element is -1 as if nothing intersected; by (1) the edge enters"
-    return slip(by_4 != {-1}, goes_in, "the tables of section 3.2, by the sign of (1)", message)
+    message = "by the sign of formula (4) every element of the table is -1, as if nothing intersected; by the sign of "
+    message += "formula (1), the edge enters the contour"
+    return slip(by_4 != {-1}, goes_in, "the tables of section 3.2, by the sign of formula (1)", message)
 
 
 @claim("nakamae-nishita.56")
@@ -183,4 +188,5 @@ def counts_of_table_1d() -> Check:
     check = exhibited(plates == (parts, vertices, faces), message)
     # A solid with F faces has at most 2 F - 4 vertices.
     most = 2 * faces - 4 * parts
-    return check.unless(most < vertices, f"solids only, which have at most {most} vertices with {faces} faces")
+    case = f"solids without plates, which have at most {most} vertices if they have {faces} faces"
+    return check.unless(most < vertices, case)
