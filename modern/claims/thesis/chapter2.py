@@ -45,8 +45,8 @@ def vertex_formula_with_minus() -> Check:
             right = all((1 - share) * p[k] + sign * share * q[k] == middle[k] for k in (1, 2))
             pair_counts[sign] += 0 < share < 1 and right
     corrected = 1 not in exact_hull(points).vertices and pair_counts[1] == 2
-    message = f"ordered pairs that give the middle point {middle}: {pair_counts[1]} with a plus, "
-    return slip(pair_counts[-1], corrected, "a plus", f"{message}{pair_counts[-1]} with the printed minus")
+    message = f"{pair_counts[1]} ordered pairs of points give the middle point {middle} with a plus, "
+    return slip(pair_counts[-1], corrected, "a plus", f"{message}and {pair_counts[-1]} with the printed minus")
 
 
 @claim("thesis.23", dimension=2, full=400)
@@ -81,7 +81,7 @@ def gift_wrapping(kind: str, cases: int = 1) -> Check:
     for sampled in sampled_sets(2 if kind == "lines" else 3, cases):
         expected = {_on(sampled.points, facet.plane) for facet in sampled.judge.facets}
         checks.append((_turned_lines(sampled) if kind == "lines" else _turned_planes(sampled.points)) == expected)
-    turned = "lines about points, which are not sorted," if kind == "lines" else "planes about a line, then about edges"
+    turned = "lines about points, without sorting them," if kind == "lines" else "planes about a line, then about edges"
     message = f"turning {turned} finds exactly the supporting {kind} of {sum(checks)} of {len(checks)} sets"
     return searched(SETS[2 if kind == "lines" else 3], cases, checks, message)
 

@@ -64,7 +64,7 @@ def end_of_the_procedure(dimension: int, cases: int = 2) -> Check:
         removed[2] += len(hull.history[-1].equations) - len(hull.faces)
     remain, added, duplicate = removed
     message = f"in {cases} drawn sets and a fixed one, {remain} points are neither added nor eliminated, all on the "
-    message += f"boundary; removed: {added} added points that are no vertices, {duplicate} duplicate equations"
+    message += f"boundary; {added} added points that are no vertices and {duplicate} duplicate equations are removed"
     return searched(LATTICE_SETS[dimension], cases, [*outcomes, *removed], message)
 
 
@@ -123,7 +123,7 @@ def boundary_points_on_edges(cases: int = 5) -> Check:
             checks += [between and k not in judge.vertices] if len(on) == 2 else []
     message = f"{sum(checks)} of {len(checks)} points in exactly two planes lie between the ends of their common edge"
     check = searched(LATTICE_SETS[3], cases, checks, message)
-    return check.unless(in_one_plane, "a point in one plane only, which is between no two ends of an edge")
+    return check.unless(in_one_plane, "a point in one plane only, which is not between the ends of any edge")
 
 
 @claim("thesis.274", full=400)
@@ -137,7 +137,7 @@ def hull_of_projection(cases: int = CASES) -> Check:
             for axis in (k for k in range(3) if normal[k]):
                 image = [with_0(point, axis) for point in points]
                 checks.append(parts(points, exact_hull(points)) == parts(image, exact_hull(image)))
-    message = "projections, from z = x - 2y + 3 or z = 2x, keep the vertices, boundary and inside points, and all lines"
+    message = "projections of sets in z = x - 2y + 3 or z = 2x keep the vertices, boundary and inside points, and lines"
     return searched(SETS[2], cases, checks, f"{sum(checks)} of {len(checks)} {message}")
 
 

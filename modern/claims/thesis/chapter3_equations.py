@@ -20,7 +20,7 @@ def procedure_against_judge(dimensions: Sequence[int], cases: int = CASES) -> Ch
     """Check that the procedure in exact arithmetic finds the vertices, other points and planes of the exact hull."""
     sets = [sampled for dimension in dimensions for sampled in sampled_sets(dimension, cases)]
     same = [parts(sampled.points, sampled.hull) == parts(sampled.points, sampled.judge) for sampled in sets]
-    message = f"in exact arithmetic {sum(same)} of {len(same)} sets agree with the exact hull"
+    message = f"in exact arithmetic, the hulls of {sum(same)} of {len(same)} sets agree with the exact hulls"
     return searched(BOTH if len(dimensions) == 2 else SETS[dimensions[0]], len(same), same, message)
 
 
@@ -112,8 +112,8 @@ def equation_of_line() -> Check:
         a, b, c = line_as_printed(u1, v1, u1 + u, v1 + v)
         return a * (u1 + along * u + right * v) + b * (v1 + along * v - right * u) + c - right * (u * u + v * v)
 
-    message = "in the two coordinates of the equation, its left side is 0 exactly on the line through the two points"
-    argument = "The left side at a point is its distance to the right of the line times the distance of the two points."
+    message = "in the two coordinates that it contains, the equation is 0 exactly on the line through the two points"
+    argument = "Its value at a point is the distance to the right of the line times the distance of the two points."
     return identity(difference, (2, 2, 2, 2, 1, 1), message, argument)
 
 

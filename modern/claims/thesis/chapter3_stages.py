@@ -54,12 +54,12 @@ def stage_property(kind: str, cases: int = CASES) -> Check:
     sets = sampled_sets(dimension, cases) if dimension else flat_and_spatial_sets(cases)
     examine, says = _PROPERTIES[kind]
     checks = [right for sampled in sets for right in examine(sampled)]
-    message = f"{sum(checks)} of {len(checks)} tests in the construction of {len(sets)} sets show: {says}"
+    message = f"{sum(checks)} of {len(checks)} tests in the construction of {len(sets)} hulls show: {says}"
     return searched(SETS.get(dimension, BOTH), len(sets), checks, message)
 
 
-@claim("thesis.264", kind="equations", reading="H_j")
-@claim("thesis.239", kind="added_triangle", reading="j = k")
+@claim("thesis.264", kind="equations", reading="H_j in place of H_1")
+@claim("thesis.239", kind="added_triangle", reading="j = k in place of j = 1")
 def number_of_the_hull(kind: str, reading: str) -> Check:
     # With the number 1, both statements would be about the first hull only.
     first_alone = all(len(sampled.stages()) == 1 for sampled in sampled_sets(2, CASES))
@@ -71,7 +71,7 @@ def one_of_several_planes(cases: int = CASES) -> Check:
     sets = sampled_sets(3, cases)
     several = sum(record.outside > 1 for sampled in sets for _, _, record, _ in _steps(sampled))
     outcomes = [several > 0, *(right for sampled in sets for right in _convexity(sampled))]
-    message = f"in {several} steps with several visible planes, replacing one of them gives no convex body"
+    message = f"in {several} steps with points outside several planes, replacing one plane gives no convex body"
     return searched(SETS[3], cases, outcomes, message)
 
 
@@ -80,8 +80,8 @@ def third_new_plane() -> Check:
     outcomes = [ok for sampled in sampled_sets(3, CASES) for ok in _replaced_facet(sampled)]
     pairs = [*combinations(("MM", "NN", "KK"), 2)]
     printed = [("MM", "NN"), ("MM", "KK"), ("MM", "KK"), ("MM", "KK")]
-    message = f"the new planes contain {', '.join(map(' and '.join, pairs))} in {len(outcomes) // 2} steps"
-    return slip({*printed} == {*pairs}, all(outcomes) and outcomes, "NN and KK", message)
+    message = f"in {len(outcomes) // 2} steps, the new planes contain the points {', '.join(map(' and '.join, pairs))}"
+    return slip({*printed} == {*pairs}, all(outcomes) and outcomes, "NN and KK for the third plane", message)
 
 
 def _steps(sampled: SampledSet) -> Iterator[tuple[Approximation, Approximation, Stage, int]]:
@@ -268,22 +268,22 @@ _PROPERTIES = {
     "last_hull": (_last_hull, "all equations of H_j support the set exactly if H_j is the last hull, that of the set"),
     "struck_inside": (_struck_inside, "each H_j eliminates exactly the remaining points that are inside it"),
     "contained_points": (_contained_points, "a point in H_j that is no vertex of H_j is no vertex of the last hull"),
-    "decreasing": (_decreasing, "N_j counts the points not inside H_j and never grows"),
+    "decreasing": (_decreasing, "N_j is the number of points not inside H_j, and it never grows"),
     "finite": (_finite, "at most N - 3 hulls follow H_1 in a plane, and at most N - 4 in space"),
-    "accepted": (_accepted_planes, "no equation before number NETC is positive at any point, but equation NETC is"),
+    "accepted": (_accepted_planes, "equation NETC is positive at some point, but no equation before it is"),
     "supporting": (_supporting, "an equation supports the last hull exactly if it is positive at no remaining point"),
     "farthest_outside": (_farthest_outside, "the new point has the largest value of equation NETC, which is positive"),
-    "largest_of_all": (_largest_of_all, "no point, eliminated or not, has a larger value than the new point"),
+    "largest_of_all": (_largest_of_all, "at no point, eliminated or not, is equation NETC larger than at the new one"),
     "replaced_line": (_replaced_facet, "two lines from the new point to the ends of one line replace this line"),
-    "replaced_plane": (_replaced_facet, "if a point is outside one facet only, a new one on each side replaces it"),
+    "replaced_plane": (_replaced_facet, "if a point is outside a single facet, new facets on its sides replace it"),
     "two_new_lines": (_two_new_lines, "each step adds two lines, and no point is outside both"),
-    "counts": (_counts, "NV and NE of H_1 are 3, or 4 in space; each step adds 1 to NV, and in a plane to NE"),
+    "counts": (_counts, "NV and NE of H_1 are 3, or 4 in space; each step adds 1 to NV, and in a plane also to NE"),
     "renumbering": (_renumbering, "later lines move up by one number, and the two new lines are last"),
     "vertices_used": (_vertices_used, "all vertices of the last hull are points that the procedure has added"),
     "vertex_when_added": (_vertex_when_added, "each added point is a vertex of the hull of the points added so far"),
     "added_triangle": (_added_bodies, "a lattice point is in H_k+1 exactly if it is in H_k or the added triangle"),
-    "convexity": (_convexity, "if one plane is replaced, the body is convex exactly if no other plane is visible"),
-    "added_tetrahedra": (_added_bodies, "a lattice point is in H_k+1 exactly if in H_k or an added tetrahedron"),
+    "convexity": (_convexity, "if one plane is replaced, the body is convex exactly if the point is outside it alone"),
+    "added_tetrahedra": (_added_bodies, "a lattice point is in H_k+1 exactly if it is in H_k or an added tetrahedron"),
 }
 _FLAT = ("replaced_line", "renumbering", "two_new_lines", "added_triangle")
 _SPACE = ("convexity", "added_tetrahedra")

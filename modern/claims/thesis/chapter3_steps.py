@@ -44,7 +44,7 @@ def third_point(cases: int = CASES) -> Check:
         p, q, r = (sampled.points[k] for k in sampled.hull.history[0].added[:3])
         areas = [cross(minus(q, p), minus(x, p)) for x in (r, *sampled.points)]
         checks.append(dot(areas[0], areas[0]) == max(dot(area, area) for area in areas))
-    message = "sets: no point is farther from the line of the first two than the third point"
+    message = "sets show: no point is farther from the line through the first two points than the third point"
     return all_hold(BOTH, 2 * cases, checks, message)
 
 
@@ -54,7 +54,7 @@ def coplanarity_test(cases: int = CASES) -> Check:
     for sampled in flat_and_spatial_sets(cases):
         first = plane_as_printed(*(sampled.points[k] for k in sampled.hull.history[0].added[:3]))
         checks.append(any(plane_value(first, point) for point in sampled.points) == (not sampled.flat))
-    return all_hold(BOTH, 2 * cases, checks, "sets: the first plane contains all points if and only if the set is flat")
+    return all_hold(BOTH, 2 * cases, checks, "sets: the first plane contains all points exactly if the set is flat")
 
 
 @claim("thesis.53", full=300)
@@ -68,7 +68,7 @@ def common_first_steps(cases: int = CASES) -> Check:
         hulls = [convex_hull(points, history=True) for points in (flat, [*flat, (x, y, z + 1)])]
         firsts = [[hull.points[k] for k in hull.history[0].added[:3]] for hull in hulls]
         checks.append([hull.dimension for hull in hulls] == [2, 3] and firsts[0] == firsts[1])
-    return all_hold(SETS[2], cases, checks, "sets start with the same three points in or out of a plane")
+    return all_hold(SETS[2], cases, checks, "flat sets start with the same three points if one off the plane is added")
 
 
 @claim("thesis.59", full=300)
@@ -124,7 +124,7 @@ def outside_convention() -> Check:
     # Each of the two points, on opposite sides of the line, must be either inside or outside.
     as_printed, as_corrected = (all(map(ne, inside, outside)) for outside in (inside, positive))
     message = f"as printed, the point x = {x} is both an inside and an outside point with respect to the line x = 0"
-    return slip(as_printed, as_corrected, "a positive value", message)
+    return slip(as_printed, as_corrected, "a positive value at an outside point", message)
 
 
 def between_by_distances() -> Check:
@@ -141,7 +141,7 @@ def between_by_distances() -> Check:
         decided = all(min(amounts) * max(amounts) >= 0 for amounts in (first, second))
         between = mm if not any(first) else nn if not any(second) else i
         steps.append(decided and between == (1, 0))
-    argument = "In each of the six orders of the points, the two sums are 0, 2 u or 2 v. Here u and v are the "
+    argument = "In each of the six orders, D_1 + D_2 - D_3 and D_1 - D_2 + D_3 are 0, 2 u or 2 v. Here u and v are the "
     argument += "distances of the middle point from the others, which are positive because the points are distinct"
     return proved(argument, steps, "sums of distances tell which of three collinear points is between the others")
 
@@ -152,7 +152,7 @@ def fourth_point_by_largest() -> Check:
     values = [plane_value(plane_as_printed(*points[:3]), point) for point in points]
     text, listing = convex_hull(points, text=True, on_refusal="return"), convex_hull(points)
     wrong = max(values) == 0 and not text.determined and listing.determined
-    message = f"the values are {', '.join(map(str, values))}; the largest belongs to a point of the plane itself, but "
+    message = f"the values at the points are {', '.join(map(str, values))}; the plane itself contains the largest, but "
     return refuted(wrong, f"{message}the listing finds the hull")
 
 
@@ -165,7 +165,7 @@ def new_planes(cases: int = CASES) -> Check:
         remaining = [frozenset(d) for k, d in enumerate(before.defining) if k not in visible]
         made = [edge | {after.vertices[-1]} for edge, count in edges.items() if count == 1]
         checks.append(Counter(map(frozenset, after.defining)) == Counter([*remaining, *made]))
-    message = "stages have the planes that the rule makes of the new point and the sides of the replaced planes"
+    message = "hulls have the planes that the rule makes of the new point and the sides of the replaced planes"
     return all_hold(SETS[3], cases, checks, message)
 
 
@@ -176,7 +176,7 @@ def planes_at_common_edge(cases: int = CASES) -> Check:
         plane = plane_through(*(sampled.points[k] for k in (*edge, after.vertices[-1])))
         thirds = [sampled.points[k] for replaced in (i, m) for k in {*before.defining[replaced]} - edge]
         checks.append(prod(plane_value(plane, third) for third in thirds) < 0)
-    return all_hold(SETS[3], cases, checks, "pairs of planes have third points on opposite sides")
+    return all_hold(SETS[3], cases, checks, "pairs of planes have third points on opposite sides of the new plane")
 
 
 def _visible(cases: int) -> Iterator[tuple[SampledSet, Approximation, Approximation, list[int]]]:
@@ -202,9 +202,9 @@ def planes_i_and_m() -> Check:
     for sampled, before, _, i, _, _ in _with_common_edge(CASES):
         j = sampled.stages().index(before)
         with_j.append(len({*before.defining[i]} & {*before.defining[j]}) == 2)
-    message = f"{len(with_j)} pairs of planes i and m have two common points; of as many pairs of plane i and plane j "
-    message += f"of H_j, {sum(with_j)} have"
-    return slip(all(with_j), planes_at_common_edge().holds, "i and m", message)
+    message = f"{len(with_j)} pairs of planes i and m have two common points; with plane j in place of m, j being the "
+    message += f"number of the hull, {sum(with_j)} pairs do"
+    return slip(all(with_j), planes_at_common_edge().holds, "the indices i and m", message)
 
 
 @claim("thesis.98", full=300)
@@ -216,7 +216,7 @@ def planes_of_same_points(cases: int = CASES) -> Check:
         first, second = ([k for k in before.defining[plane] if k in edge] for plane in (i, m))
         in_order.append(first == second)
     check = all_hold(SETS[3], cases, eliminated, "pairs of planes through the same points are eliminated")
-    case = f"a search at equal positions, which misses {in_order.count(False)} of {len(in_order)} pairs"
+    case = f"a comparison of points at equal positions, which misses {in_order.count(False)} of {len(in_order)} pairs"
     return check.unless(not all(in_order), case)
 
 
@@ -236,7 +236,7 @@ def order_of_replacement(cases: int = CASES) -> Check:
         text, listing = ([f.lowest for f in hull.faces] for hull in hulls)
         outcomes.append(sorted(text) == sorted(listing) == sorted(f.plane for f in exact_hull(points).facets))
         reordered += text != listing
-    message = f"{sum(outcomes)} of {cases} sets get the hull's planes by text and listing, {reordered} in another order"
+    message = f"text and listing give the planes of {sum(outcomes)} of {cases} sets; the orders differ for {reordered}"
     return searched(WITH_FOURTH_POINT, cases, [*outcomes, reordered], message)
 
 
@@ -246,5 +246,5 @@ def without_constant_term() -> Check:
     planes = [facet.plane for facet in exact_hull(corners).facets]
     values = [(dot(plane[:3], middle), plane_value(plane, middle)) for plane in planes]
     wrong = sum(without > 0 for without, _ in values)
-    message = f"without D {wrong} of {len(planes)} planes are positive at the centre of the cube, and with D none is"
+    message = f"without D, {wrong} of {len(planes)} equations are positive at the cube's centre, and with D none is"
     return slip(not wrong, max(value for _, value in values) < 0, "a condition that includes D_g", message)

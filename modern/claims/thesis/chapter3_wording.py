@@ -81,7 +81,7 @@ def line_duplicates_as_printed() -> Check:
     remaining = _duplicates_removed_as_worded(points, added_points(hull), equations)
     lines = len({frozenset(on_line(points, *pair)) for pair in remaining})
     right = len({face.lowest for face in hull.faces}) == len(judge.facets)
-    message = f"as worded {lines} of {len(judge.facets)} lines remain; the listing keeps all of them"
+    message = f"by the rule of page 28, {lines} of {len(judge.facets)} lines remain; the listing keeps all of them"
     return refuted(lines < len(judge.facets) and right, message)
 
 
@@ -116,7 +116,7 @@ def plane_duplicates_as_printed(cases: int = CASES) -> Check:
                 kept_planes.append(_unsigned(plane))
         checks.append(sorted(kept_planes) == sorted(_unsigned(facet.plane) for facet in exact_hull(points).facets))
         differing += kept_planes != [_unsigned(face.lowest) for face in hull.faces]
-    message = f"a pyramid and {cases} sets keep one equation of each plane, {differing} not in the listing's order"
+    message = f"{sum(checks)} of {len(checks)} sets keep one equation of each plane, in {differing} not the listing's"
     return searched(LATTICE_SETS[3], cases, [*checks, differing], message)
 
 
@@ -144,7 +144,7 @@ def consecutive_hulls() -> Check:
     message = f"in {sum(checks)} of {len(checks)} sets H_2 is the first hull that has a predecessor"
     # As printed, j + 1 may be 1, and then H_0 is the hull before.
     numbers = {stage.number for sampled in sets for stage in sampled.hull.history}
-    return slip(0 in numbers, all(checks), "2", message)
+    return slip(0 in numbers, all(checks), "2 in place of 1", message)
 
 
 @claim("thesis.219", "thesis.265", full=100)
@@ -172,7 +172,7 @@ def order_of_elimination(cases: int = CASES) -> Check:
         # The last hull is not tested if no point remains, and a run can end with an error after a new point.
         in_order.append(re.fullmatch("(EC+G)*(EC*)?", steps))
         hulls += steps.count("E")
-    message = f"{len(in_order)} runs, {hulls} hulls: the inside points of each hull are eliminated before it is tested"
+    message = f"in {len(in_order)} runs, the inside points of {hulls} hulls are eliminated before the hull is tested"
     return searched(BOTH, 2 * cases, [*in_order, hulls > len(in_order)], message)
 
 
@@ -190,7 +190,7 @@ def first_hull_against_extremes(cases: int = 4) -> Check:
     larger = all(own[0] > of_six[0] == 0 for own, of_six in flat) and first[0] > six_extremes[0] > 0
     says = f"{len(within)} of {len(fewer)} hulls H_1 use only extreme points, and these are not larger than the hull "
     says += "of the extreme points; no H_1 has more planes than this hull, unless the extreme points are coplanar"
-    case = f"a set with six times the volume {first[0]} for H_1, and {six_extremes[0]} for the hull of the extremes"
+    case = f"a set for which H_1 has the volume {first[0]}/6, and the hull of the extreme points {six_extremes[0]}/6"
     return searched(SETS[3], cases, passed, says).unless(larger, case)
 
 

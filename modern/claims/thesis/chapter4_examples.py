@@ -108,14 +108,14 @@ def _points(theorem: Theorem) -> Check:
 
 def _equations(theorem: Theorem) -> Check:
     faults = theorem_faults(theorem, load_text())
-    message = f"{theorem.points_stated} points; each equation is 0 at the points of its row"
+    message = f"the example has {theorem.points_stated} points; each equation is 0 at the points of its row"
     message += ", and the extreme points are as stated" if theorem.extremes else ""
     return exhibited(not faults, faults[0] if faults else message)
 
 
 def _signs(theorem: Theorem) -> Check:
     right = sum(theorem.plane(n).at(_point(theorem, p)) * int(f"{sign}1") > 0 for n, p, sign in theorem.signs)
-    return exhibited(right == len(theorem.signs), f"{right} of {len(theorem.signs)} signs are as stated")
+    return exhibited(right == len(theorem.signs), f"{right} of {len(theorem.signs)} values have the signs of the text")
 
 
 def _point(theorem: Theorem, name: str) -> Point:
@@ -145,7 +145,7 @@ def lost_candidates(theorem: Theorem) -> list[Vector]:
 def _outside_plane(theorem: Theorem) -> Check:
     values = {name: theorem.planes[0].at(_point(theorem, name)) for name in theorem.outside_plane}
     message = ", ".join(f"{value} at {name}" for name, value in values.items())
-    return exhibited(values and all(values.values()), f"the equation is {message}")
+    return exhibited(values and all(values.values()), f"the value of the equation is {message}")
 
 
 def _lost_point(theorem: Theorem) -> Check:
@@ -165,7 +165,7 @@ def _not_supporting(theorem: Theorem) -> Check:
     faces = _faces([point.at for point in theorem.points])
     table = [scaled(plane.coefficients, True) for plane in theorem.planes]
     inside = [number for number, plane in enumerate(table, 1) if plane in faces]
-    message = f"the hull of the six points has the equations {', '.join(map(str, inside))} of the table and "
+    message = f"the hull of the six points has the equations {', '.join(map(str, inside))} of Table 1 and "
     return exhibited(inside == [1, 2, 3, 4, 5, 6], f"{message}{len(faces) - len(inside)} others")
 
 
@@ -189,15 +189,15 @@ def _growing(theorem: Theorem) -> Check:
 def _supporting(theorem: Theorem) -> Check:
     faces = _faces([_point(theorem, name).at for name in points_of_h_5()])
     table = {scaled(plane.coefficients, True) for plane in theorem.planes}
-    message = f"{len(faces & table)} of the {len(table)} listed planes support, up to a factor"
-    return exhibited(faces == table, f"{message}; H5 has {len(faces)} planes")
+    message = f"{len(faces & table)} of the {len(table)} listed equations are, up to a factor, those of planes of H_5"
+    return exhibited(faces == table, f"{message}; H_5 has {len(faces)} planes")
 
 
 def _last_outside(theorem: Theorem) -> Check:
     points = [_point(theorem, name).at for name in points_of_h_5()]
     outside = [plane.number for plane in theorem.planes if plane.at(_point(theorem, "Q9")) > 0]
     passed = outside == [3, 4, 5, 6, 7, 8] and _point(theorem, "Q9").at not in points
-    return exhibited(passed, f"the last point is outside equations {', '.join(map(str, outside))}")
+    return exhibited(passed, f"the last point is outside the planes {', '.join(map(str, outside))}")
 
 
 def _programs(theorem: Theorem, load: Load) -> Check:
@@ -208,7 +208,7 @@ def _programs(theorem: Theorem, load: Load) -> Check:
     judge = from_judge(exact_hull(points), points)
     outcome = from_cards("listing", run_hull(deck, load, Options(limit=200_000)), points)
     agrees = outcome.determined and disagreement(outcome, judge, points).agrees
-    description = "the printed points" if is_exact else "the points truncated to eight digits"
+    description = "programs run on the printed points" if is_exact else "programs run on the truncated points"
     missing = f", without {', '.join(theorem.lost)}" if theorem.lost else ""
     sizes = [f"{len(hull.vertices)} vertices, {len(hull.equations)} planes" for hull in (outcome, judge)]
     verdict = f"{sizes[0]}, {'like' if agrees else 'unlike'} the exact hull"
@@ -236,7 +236,7 @@ def procedure_of_4_8() -> Check:
     right = same[0] and same[1] and same[4] and used[8:] == ["Q9"] and hull.history[-1].outside == 6 and all(farthest)
     message = f"the procedure makes H_1, H_2 and H_5; {sum(farthest)} of the 4 added points are farthest from a plane"
     others = not same[2] and not same[3] and not as_worded.determined
-    case = "H_3 and H_4, which use other points, and the wording of page 29, which makes no H_1"
+    case = "H_3 and H_4 of the procedure, which have other points, and by the rule of page 29, which makes no H_1"
     return exhibited(right, message).unless(others, case)
 
 
@@ -252,9 +252,9 @@ def slips_of_4_8(name: str, at: tuple[int, int, int]) -> Check:
     numbers = ", ".join(map(str, nonzero))
     if name == "Q1":
         wrong = nonzero == [1, 2, 7]
-        message = f"equations {numbers}, which name Q1, are not 0 at {in_list}"
+        message = f"equations {numbers}, which name this point, are not 0 at {in_list}"
     else:
         wrong = nonzero == [1, 6] and printed.at not in [point.at for point in theorem.points]
-        message = f"{in_table} is none of the nine points, and equations {numbers} of {at} are not 0 there"
+        message = f"{in_table} is none of the nine points, and equations {numbers}, which name {at}, are not 0 there"
     right = point.at == tuple(map(Fraction, at)) and not any(plane.at(point) for plane in planes)
     return slip(not wrong, right, f"{at}", message)

@@ -50,7 +50,7 @@ def inequalities_without_z() -> Check:
     a, b, c, d = theorem_of("4.2").plane(7).coefficients
     as_printed, right = a * point[0] + b * point[1] + c, plane_value((int(a), int(b), int(c), int(d)), point)
     passed = as_printed > 0 > right and [*map(Fraction, point)] == [*theorem_of("4.2").points[5].at]
-    message = f"at point 6: {as_printed} as printed, {right} with the terms in z and D"
+    message = f"at point 6, the value is {as_printed} as printed, and {right} with the terms in z and D"
     return slip(not passed, right < 0 and worked_example("4.2", "signs").holds, "A x + B y + C z + D", message)
 
 
@@ -59,7 +59,7 @@ def sign_e() -> Check:
     p, q = counterexample_points("e_minus_one.csv")
     first = next(k for k in (q[2] - p[2], q[1] - p[1], q[0] - p[0]) if k)
     e = 1 if first > 0 else -1
-    return slip(e == 1, e * e == 1, "e squared", f"e is {e} if z decreases from P1 to P2; its square is 1")
+    return slip(e == 1, e * e == 1, "the square of e", f"e is {e} if z decreases from P1 to P2; its square is 1")
 
 
 @claim("thesis.242")
@@ -67,7 +67,7 @@ def bars_of_page_50() -> Check:
     a, b, c, p, q = 3, -2, 5, (1, 4), (3, 7)
     squares = {(x, y): _distance_squared((x, y), p, q) for x, y in product(range(-3, 4), repeat=2)}
     as_text = [d2 * (a * a + b * b) == (abs(a * x) + b * y + c) ** 2 for (x, y), d2 in squares.items()]
-    return proofs.theorem_4_6().check().misprinted(not all(as_text), "bars around all three terms")
+    return proofs.theorem_4_6().check().misprinted(not all(as_text), "absolute-value bars around A x + B y + C")
 
 
 def _distance_squared(x: tuple[int, int], p: tuple[int, int], q: tuple[int, int]) -> Fraction:
@@ -94,7 +94,7 @@ def outside_unreplaced_line() -> Check:
     kept = [(k, plane) for k, plane in enumerate(before.equations, 1) if k != checked and plane in after.equations]
     unreplaced = [(k, point) for k, plane in kept for point in points if plane_value(plane, point) > 0]
     message = ", ".join(f"{point[:2]} is outside line {k}" for k, point in unreplaced)
-    return refuted(unreplaced, f"{message}; the line replaced is line {checked}")
+    return refuted(unreplaced, f"{message}, but the step replaces line {checked}")
 
 
 # The coordinates of Fig. 3: P_3 is the origin, P_1 = (x_1, y_1) and P_2 = (x_1, y_2), with y_1 < y_2.
@@ -163,4 +163,4 @@ def outside_of_line_1() -> Check:
 def third_equation() -> Check:
     at_first_point = _values(X1, Y1)[2]
     message = "the third equation is 0 on the line of P_2 and P_3 but not at P_1"
-    return slip(not at_first_point.terms, lines_of_figure_3().holds, "a line", message)
+    return slip(not at_first_point.terms, lines_of_figure_3().holds, "an equation of the line", message)

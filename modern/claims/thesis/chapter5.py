@@ -64,7 +64,7 @@ def error_in_program(cases: int = CASES) -> Check:
     message += f"{names[0]}, whose hull needs the correction {', '.join(hulls[0].corrected)}"
     outcomes = [procedure_against_judge((2, 3), cases).holds, ended[0] and hulls[0].corrected]
     right = all(ended) and all(hull.determined for hull in hulls) and not hulls[1].corrected
-    case = f"{names[1]}, which has too many digits: in exact arithmetic, no correction is needed"
+    case = f"{names[1]}, whose numbers have too many digits; in exact arithmetic, it needs no correction"
     return searched(BOTH, 2 * cases, outcomes, message).unless(right, case)
 
 
@@ -87,7 +87,7 @@ def message_after_wrong_hull(cases: int = CASES) -> Check:
     renumbered = run_hull(deck_with(_THREE_BEFORE_A_VERTEX), programs.program, options)
     hull = read_hull(renumbered.final.result.punched)
     announced = all(map(_is_announced, (run_of("silent.deck"), renumbered)))
-    case = f"eight digits: after {len(punched)} of {len(vertices)} vertices of silent.deck, program 3 punches the line"
+    case = f"eight digits: after {len(punched)} of {len(vertices)} vertices of silent.deck, program 3 punches this line"
     case += f"; and by program 2 as listed, which punches it after the wrong vertices {hull.satisfied[0][0]} of a line"
     wrong = announced and punched != vertices and _on_equations(hull)[0] != _listed(hull)[0]
     generator = replace(BOTH, name=f"{BOTH.name}, and the first two and three points of each")
@@ -153,7 +153,7 @@ def plane_table_size() -> Check:
     hull = exact_hull([(k, k**2, k**3) for k in range(MOST_POINTS)])
     points, planes, most = len(hull.vertices), len(hull.facets), entries_of_plane_table()
     fits = points == MOST_POINTS and planes == 2 * MOST_POINTS - 4 == size == PLACES
-    message = f"{points} points of a curve have {planes} planes, the most by Euler's formula, which fit the table"
+    message = f"{points} points of a curve have {planes} planes, the most by Euler's formula; they fit the table"
     case = f"the intermediate hulls of table.deck, which need {most} entries"
     return exhibited(fits, message).unless(most > size, case)
 
@@ -205,8 +205,8 @@ def printed_hulls(examples: Iterable[int] = EXAMPLES) -> Check:
             lines = {*combinations(range(1, len(hull.vertices) + 1), 2)}
             complete = planes.keys() == lines and all(len(pair) == 2 and _differ(*pair) for pair in planes.values())
         checks.append(difference.agrees and not outcome.strange and complete and on_equation == _listed(hull))
-    message = f"printed hulls that equal the exact hull in everything printed: {sum(checks)} of {len(checks)}; "
-    message += f"points and dimension: {', '.join(f'{n} and {dimension}' for n, dimension in sets)}"
+    message = f"{sum(checks)} of {len(checks)} printed hulls equal the exact hull in everything that is printed; "
+    message += f"number of points and dimension: {', '.join(f'{n} and {dimension}' for n, dimension in sets)}"
     return exhibited(all(checks) and sets == [_EXAMPLES[example] for example in examples], message)
 
 
@@ -239,7 +239,7 @@ def first_card() -> Check:
     listing = programs.deck("program1").text()
     read = ("READ 1,N", "1 FORMAT (I2)", "READ 21,X(I),Y(I),Z(I)", "21 FORMAT (4E14.8")
     right = [len(first) == 2 and [*map(len, others)] == [3 * 14] * int(first) for first, *others in decks]
-    message = f"the {len(decks)} printed decks have N, then N cards with 3 x 14 characters; FORMATs give the columns"
+    message = f"the {len(decks)} printed decks have N, then N cards with 3 x 14 characters, as in the FORMATs"
     return exhibited(all(right) and all(words in listing for words in read), message)
 
 
@@ -296,7 +296,7 @@ _STEPS = {
 def comments_of_steps(name: str) -> Check:
     comments = [card.text for card in programs.deck(name).cards if card.text.startswith("C")]
     named = [sum(words in comment for comment in comments) == 1 for words in _STEPS[name]]
-    return exhibited(all(named), f"{len(named)} steps of {name} are named by comments")
+    return exhibited(all(named), f"comments name {len(named)} steps of {name}")
 
 
 def _translated(name: str) -> Program:
@@ -311,7 +311,7 @@ def storage_of_translation() -> Check:
     try:
         Machine(_translated("program3"), deck, Options())
     except DeckError as error:
-        return exhibited("OVERLAP" in str(error), f"only with the translation: {error}")
+        return exhibited("OVERLAP" in str(error), f"only with the layer translation, loading fails: {error}")
     return exhibited(False, "the programs with the translation fit 40,000 positions")
 
 
@@ -325,7 +325,7 @@ def sign_without_products() -> Check:
     decks = [{name: programs.deck(name, layers) for name in lines} for layers in ((), ("translation",))]
     texts = [{name: deck.text().replace(" ", "") for name, deck in version.items()} for version in decks]
     versions = [[words in text[name] for name, pair in lines.items() for words in pair] for text in texts]
-    message = "with the translation, the sign is that of the constant term, not of the value at C"
+    message = "with the layer translation, a program tests the constant term and not the value at C"
     return exhibited(versions == [[True, False] * 2, [False, True] * 2], message)
 
 
@@ -354,5 +354,5 @@ def points_moved_back() -> Check:
     # The equations are 0 at three original vertices each.
     right = sorted(_on_equations(hull)) == sorted(_listed(hull)) and len(hull.equations) == len(points)
     message = f"{len(hull.vertices)} vertices and {len(hull.equations)} planes are punched in the original coordinates"
-    message += "; those of the vertices differ from the moved ones"
+    message += "; if the origin were not moved back, the vertices would differ"
     return exhibited(right and {*hull.vertices} == original != without, message)

@@ -120,7 +120,7 @@ def programs_compile() -> Check:
 @claim("thesis.155")
 def cards_read_and_punched() -> Check:
     words = [{line.text.split()[0] for line in programs.program(name).statements} for name in THREE]
-    return exhibited(all({"READ", "PUNCH"} <= of_program for of_program in words), "all programs have READ and PUNCH")
+    return exhibited(all({"READ", "PUNCH"} <= of_program for of_program in words), "all programs READ and PUNCH cards")
 
 
 @claim("thesis.4", "thesis.153")
@@ -162,7 +162,7 @@ def plane_through_c() -> Check:
     message, points = typed(run_of("throughc.deck")), points_on(deck_of("throughc.deck"))
     judge = exact_hull(points)
     passed = message.endswith("ERROR IN PROGRAM") and "P3-027" in convex_hull(points).corrected
-    message = f"typed: {message}; the exact hull has {len(judge.vertices)} vertices and {len(judge.facets)} planes"
+    message = f"a run types {message}; the exact hull has {len(judge.vertices)} vertices and {len(judge.facets)} planes"
     return refuted(passed, message)
 
 
@@ -193,7 +193,7 @@ def silent_loss() -> Check:
     punched, judge = vertices_of("silent.deck")
     message = typed(run_of("silent.deck"))
     passed = punched != judge and "NOT ACCEPTABLE" not in message
-    return refuted(passed, f"{len(punched)} of {len(judge)} vertices are punched; typed: {message}")
+    return refuted(passed, f"the programs punch {len(punched)} of {len(judge)} vertices and type {message}")
 
 
 @claim("thesis.65")
@@ -215,8 +215,8 @@ def orientation_by_c(cases: int = CASES) -> Check:
             # The sum of the values at the first points has the sign of the value at C, their mean.
             checks += [sum(plane_value(facet.plane, point) for point in first) < 0 for facet in judge.facets]
     fault = plane_through_c()
-    check = searched(SETS[3], cases, checks, f"{len(checks)} planes of all H_j are negative at the inside point C")
-    return check.unless(not fault.holds, f"a plane that is made and eliminated later: {fault.message}")
+    check = searched(SETS[3], cases, checks, f"{len(checks)} equations of all H_j are negative at the inside point C")
+    return check.unless(not fault.holds, f"a plane through C that is eliminated later: {fault.message}")
 
 
 @claim("thesis.190", full=300)
@@ -245,7 +245,7 @@ def data_sheet(part: str) -> Check:
         deck = deck_with([(3, 12, 1)])
         ((*_, in_29),) = read_hull(run_hull(deck, programs.program).final.result.punched).vertices
         right = len(deck.cards[-1].text.rstrip()) == 42 and in_29 == 1
-        return slip(z == 1, right, "29 to 42", f"program 1 reads a z of 1 in columns 39 to 52 as {float(z)}")
+        return slip(z == 1, right, "columns 29 to 42", f"program 1 reads a z of 1 in columns 39 to 52 as {float(z)}")
     if part == "digits":
         (text,) = (row.words for row in statements_of("thesis") if row.id == "thesis.163")
         field = coordinate_field("3")

@@ -38,7 +38,7 @@ def two_kinds_of_error() -> Check:
     differ = [a != b for a, b in zip(cut, exact_coefficients, strict=True)]
     # The coefficients that need nine digits are truncated. None ends with 0.
     passed = any(differ) and differ == [abs(x) >= 10**8 for x in exact] and exact == exact_coefficients
-    message = f"1/3 is truncated on a card, and {sum(differ)} coefficient of a plane, which needs nine digits"
+    message = f"1/3 is truncated on a card, and so is {sum(differ)} coefficient of a plane, which needs nine digits"
     return exhibited(passed and third == "+.33333333E+00", message)
 
 
@@ -110,7 +110,7 @@ def _misses(points: tuple[Point, ...], name: str = "truncating") -> list[int]:
 @claim("thesis.185")
 def fourth_point_off_plane() -> Check:
     exactly = not plane_value(plane_through(*_FOURTH[:3]), _FOURTH[3])
-    message = f"{_FOURTH[3]} lies exactly in the plane of the other three points, but alone misses it in eight digits"
+    message = f"in eight digits, {_FOURTH[3]} alone of four coplanar points does not satisfy the equation of the plane"
     return exhibited(exactly and _misses(_FOURTH) == [3], message)
 
 
@@ -221,5 +221,5 @@ def value_against_distance() -> Check:
         value_of_point = dot((a, b, c), (t * a, t * b, t * c))
         return value_of_point**2 - dot((a, b, c), (a, b, c)) * (t * t) * dot((a, b, c), (a, b, c))
 
-    argument = "If the plane contains the origin, this is the foot of t (A, B, C), at the distance t times the length."
+    argument = "If the origin is in the plane, it is the foot of t (A, B, C), at the distance t times the length."
     return identity(difference, (4, 4, 4, 2), "the value is the distance times the length of (A, B, C)", argument)

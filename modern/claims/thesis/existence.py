@@ -125,16 +125,16 @@ def outside_several_planes() -> Iterator[bool]:
 @claim("thesis.107")
 def theorem_4_1() -> Check:
     argument = (
-        "Two extremes of one coordinate that coincide make all points coplanar. For each other way in which the six "
-        "extremes can coincide there is a set that is not coplanar and has exactly these extremes in one plane"
+        "If the extreme points of one coordinate coincide, all points are coplanar. For each other way in which "
+        "extreme points can coincide, a set that is not coplanar has exactly these extreme points in one plane"
     )
-    return proved(argument, coplanar_extremes(), "the extremes can be coplanar in all 87 ways to coincide")
+    return proved(argument, coplanar_extremes(), "the extremes can be coplanar in all 87 ways in which they coincide")
 
 
 @claim("thesis.112")
 def theorem_4_2() -> Check:
-    argument = "The surface of Table 1 is a sphere without self-intersection on six extremes, and two faces do not "
-    argument += "support"
+    argument = "The faces of Table 1 form a sphere without self-intersection. Its corners are the six extreme points. "
+    argument += "Two faces are not in supporting planes"
     return proved(argument, table_1(), "the polyhedron of Table 1 is not convex")
 
 

@@ -40,7 +40,7 @@ def equation_of_plane() -> Proof:
     product = minus(tuple(normal), cross(minus(Q, P), minus(X, P)))
     return Proof(
         "(3.4) gives an equation of the plane through three points that are not collinear",
-        "The equation is 0 at the three points, and A, B and C are the components of the vector product of two sides. "
+        "(3.4) is 0 at the three points, and A, B and C are the components of the vector product of two sides. "
         "They are all 0 only if the points are collinear, and then the points lie in many planes.",
         _all_zero("the value is 0", [*(dot(normal, p) + d for p in (P, Q, X)), *product]),
     )
@@ -73,7 +73,7 @@ def different_z() -> Proof:
         positive(dz * dz),
         (term("distinct"), term("x", -dx), term("y", -dy)),
     )
-    return Proof("points with equal x and y differ in z", "Distinct points differ in a coordinate.", (step,))
+    return Proof("distinct points with equal x and y differ in z", "Distinct points differ in a coordinate.", (step,))
 
 
 def equations_of_line() -> Proof:
@@ -120,9 +120,9 @@ def perpendicular_projection() -> Proof:
     images = [bracket(*((p[i], p[j]) for p in (P, Q, X))) for i, j in pairs]
     return Proof(
         "a plane is projected to a line if and only if its coefficient for the omitted coordinate is 0",
-        "The coefficient is twice the area of the image of the triangle. Planes are perpendicular if the product of "
-        "their normals is 0, and that of a coordinate plane has one component. The rule omits a coordinate whose "
-        "coefficient is not 0: x, or y if A is 0, or z if A and B are 0, because then C is not 0.",
+        "The coefficient is twice the area of the projected triangle of three points. Planes are perpendicular if the "
+        "scalar product of their normals is 0. The normal of a coordinate plane has one nonzero component. The rule "
+        "omits a coordinate whose coefficient is not 0: x, or y if A is 0, or z if A and B are 0. C is then not 0.",
         _all_zero("the area is the coefficient", [area - a for area, a in zip(images, normal, strict=True)]),
     )
 
@@ -131,7 +131,7 @@ def projection_along_axis() -> Proof:
     ways = [(minus(P, with_0(P, axis)), with_0(Q, axis)) for axis in range(3)]
     return Proof(
         "setting a coordinate to 0 projects a point to a coordinate plane",
-        "The way from the foot to the point is perpendicular to every vector of the coordinate plane.",
+        "The vector from the projection to the point is perpendicular to every vector of the coordinate plane.",
         _all_zero("the product is 0", [dot(way, across) for way, across in ways]),
     )
 
@@ -143,9 +143,9 @@ def coordinates_of_figure_3() -> Proof:
     return Proof.of(
         "in coordinates that keep all distances, P_3 is the origin, P_1 and P_2 have the same x, and y_1 is less than "
         "y_2",
-        "The new coordinates of a point x, times the distance of P_1 and P_2, are products of the way from P_1 to P_2 "
-        "with the way from P_3 to x. They keep distances, because the sum of the squares of both products is the "
-        "product of the squares of both ways. If P_1 has a negative x, -x takes the place of x. If P_1, P_2 and P_3 "
+        "The new coordinates of a point x, times the distance of P_1 and P_2, are products of the vector from P_1 "
+        "to P_2 with that from P_3 to x. They keep distances, because the sum of the squares of both products is the "
+        "product of the squares of both vectors. If P_1 has a negative x, -x takes the place of x. If P_1, P_2 and P_3 "
         "run clockwise, the change of coordinates is a reflection as well as a movement.",
         *_all_zero("P_3 is the origin", moved["r"]),
         Step("P_1 and P_2 have the same x", {}, zero(moved["p"][0] - moved["q"][0])),
@@ -161,7 +161,7 @@ def _c_0(a: Point, b: Point, k: Point) -> Polynomial:
 
 def coefficient_c_0() -> Proof:
     *_, c, _ = _plane(P, Q, X)
-    return Proof("C_0 is the C of (3.4)", "Both are the same polynomial.", _all_zero("C_0 = C", [_c_0(P, Q, X) - c]))
+    return Proof("C_0 is C in (3.4)", "Both are the same polynomial.", _all_zero("C_0 = C", [_c_0(P, Q, X) - c]))
 
 
 def other_letters() -> Proof:
@@ -204,7 +204,7 @@ def sum_of_page_46() -> Check:
     sums = [total(printed), total(substituted), _c_0((xa, ya), (xb, yb), k) - total(substituted)]
     proof = Proof("the printed sum is 0", "All terms cancel.", _all_zero("the sum is 0", sums))
     differ = sorted(str(t.terms) for t in printed) != sorted(str(t.terms) for t in substituted)
-    return proof.check().misprinted(differ, "three terms have x_b y_a; in four, lambda and 1 - lambda are exchanged")
+    return proof.check().misprinted(differ, "three terms with x_b y_a, and four with lambda and 1 - lambda exchanged")
 
 
 @claim("thesis.50")
@@ -218,7 +218,7 @@ def display_of_page_14() -> Check:
 @claim("thesis.287")
 def display_of_page_41() -> Check:
     is_wrong = not printed_v(P, P).terms
-    return theorem_4_3().check().misprinted(is_wrong, "i for 1 in the differences from the point i")
+    return theorem_4_3().check().misprinted(is_wrong, "the index i in the first factor of each product")
 
 
 @claim("thesis.120")
@@ -228,12 +228,12 @@ def determinants_of_page_41() -> Check:
     of_foot = dot(way, way) * dot(cosines, cosines) - dot(way, cosines) * dot(way, cosines)
     proof = Proof(
         "the sum of three squared determinants is the squared distance",
-        "By Pythagoras, the square of the distance is that of the way from the point to P_2, less that of its "
+        "By Pythagoras, the square of the distance is that of the vector from the point to P_2, less that of its "
         "component along the line. The squares of the direction cosines have the sum 1.",
         _all_zero("the sum is the square of the distance", [dot(rows, rows) - of_foot]),
     )
     fourth = way[2] * cosines[2] - way[0] * cosines[1]
-    return proof.check().misprinted((fourth * fourth).terms, "three determinants")
+    return proof.check().misprinted((fourth * fourth).terms, "a sum with three determinants")
 
 
 @claim("thesis.234")
@@ -241,4 +241,4 @@ def displays_of_page_42() -> Check:
     (_, ux, uy, uz), (_, wy, _) = (0, *minus(Q, P)), minus(Q, X)
     as_text = (wy * uz - uz * uy) * (wy * uz - uz * uy) + 2 * (ux * uy - uy * uz) * (ux * uy - uy * uz)
     is_wrong = (as_text - printed_v(X, X)).terms
-    return theorem_4_3().check().misprinted(is_wrong, "three brackets with the letters and indices of V")
+    return theorem_4_3().check().misprinted(is_wrong, "three brackets with the letters and indices of formula V")

@@ -129,7 +129,7 @@ def theorem_4_6() -> Proof:
     across = b * (x - s) - a * (y - t)
     scaled = (a * a + b * b) * ((x - s) * (x - s) + (y - t) * (y - t)) - value * value
     return Proof.of(
-        "on the positive side of a line, the larger value of its equation has the larger distance",
+        "on the positive side of a line, a point with a larger value of the line's equation is at least as far away",
         "For every point of the line the square of the distance times A^2 + B^2 is at least the square of the value, "
         "and equal to it at the foot of the perpendicular. A^2 + B^2 is positive, and values that are not negative "
         "have the order of their squares.",
@@ -194,15 +194,15 @@ def theorem_4_7() -> Proof:
     sum_of_three = (term("abc bcd"), term("bcd ab"), term("abc cd"))
     return Proof.of(
         "a point of the set is outside at most one line of an H_j",
-        "Every vertex of an H_j has the largest value of a linear function on the set: the first two are extremes, "
-        "and the others have the largest value of a line. So no vertex is inside a triangle of points of the set. Let "
-        "h be outside the lines c a and a b that meet at a: then a is inside the triangle c b h. Let h be outside a b "
-        "and c d, which do not meet, and let the boundary turn by at most 180 degrees between them, or exchange the "
-        "two lines. If b, c, d or a, b, c are collinear, the lines a b and b d, or a c and c d, are the same lines and "
-        "meet. Otherwise h is outside b c as well, and b is inside a triangle, or, if the lines are parallel, h cannot "
-        "be outside both. If two edges are on one line, the middle one of their ends is between the others, and its "
-        "linear function is a multiple of the line; then h and a vertex v on the other side cannot both have smaller "
-        "values.",
+        "Every vertex of an H_j has the largest value of a linear function on the set: the first two are extreme "
+        "points, and each other has the largest value of the equation of a line. So no vertex is inside a triangle of "
+        "points of the set. Let h be outside two lines. If they are c a and a b, which meet at the vertex a, then a is "
+        "inside the triangle c b h. Otherwise let them be a b and c d, in the order in which the boundary turns by at "
+        "most 180 degrees from a b to c d. If b, c, d are collinear, c d is also the line b d, which meets a b at b. "
+        "If a, b, c are collinear, a b is also the line a c, which meets c d at c. Otherwise h is outside b c as well, "
+        "and b is inside a triangle, or, if the lines are parallel, h cannot be outside both. If two edges are on one "
+        "line, the middle one of their ends is between the others, and its linear function is a multiple of the line's "
+        "equation. Then h and a vertex v on the other side cannot both have smaller values.",
         *_boundary_steps(),
         *(Step("a is a combination of c, b and h", {}, zero(equation)) for equation in inside),
         Step(
@@ -245,13 +245,13 @@ def theorem_4_5() -> Proof:
     weights = bracket(p, b, x), bracket(a, p, x), -bracket(a, b, x)
     area = -bracket(a, b, p)
     return Proof.of(
-        "the points that satisfy all lines of H_j are the convex combinations of its vertices",
-        "Combinations satisfy the inequalities that their points satisfy. For H_1, a triangle, and for the triangle "
-        "a b p added to H_k, a point has the weights [p, b, x], [a, p, x] and -[a, b, x] with the sum -[a, b, p]. They "
-        "are not negative in the triangle. By theorem 4.7 for H_k, p is outside a b alone, so that the edges c a and "
-        "b d are not on the line a b, and all vertices v of H_k satisfy the new lines a p and p b. Hence H_k+1 "
-        "contains all combinations. A point of H_k+1 satisfies a b, and then it is in H_k, or it does not, and then it "
-        "is in the triangle.",
+        "the points at which no line of H_j is positive are the convex combinations of its vertices",
+        "A convex combination satisfies the inequalities that its points satisfy. Let [a, b, c] be twice the signed "
+        "area of a triangle. In H_1, and in the triangle a b p added to H_k, a point x has the weights [p, b, x], [a, "
+        "p, x] and -[a, b, x], which are not negative and have the sum -[a, b, p]. By theorem 4.7 for H_k, p is "
+        "outside a b alone. So the neighbouring edges c a and b d are not on the line a b, and all vertices v of H_k "
+        "satisfy the inequalities of the new lines a p and p b. Hence H_k+1 contains all combinations. A point of "
+        "H_k+1 that satisfies the inequality of a b is in H_k, and any other point of H_k+1 is in the triangle.",
         *combination_satisfies(),
         *(
             Step(
