@@ -118,7 +118,7 @@ def table_5() -> Check:
 def points_at_diameter_14() -> Check:
     """Check that Table 5 implies too many vertices for diameter 14: F faces allow at most 2 F - 4 vertices."""
     row = next(row for row in half_balls() if row.diameter == 14)
-    message = f"{row.corners} points and {row.faces} faces, which allow {2 * row.faces - 4} vertices"
+    message = f"Table 5 implies {row.corners} points, but {row.faces} faces allow at most {2 * row.faces - 4} vertices"
     return exhibited(not may_be_convex(int(row.corners), row.faces), message)
 
 
@@ -141,9 +141,9 @@ def ball_of_diameter_32() -> Check:
     outcomes = [
         ("an odd number of voxels", voxels % 2 == 1),
         # The corners lie on no plane of symmetry, and the reflections in three planes move them in groups of 8.
-        ("corners in groups of eight", corners % 8 == near_corners % 8 == 0 and (triangles + 4) % 16 == 0),
-        (f"at most {corners} corners make the triangles", triangles <= 2 * corners - 4),
-        ("possible number of faces", may_be_convex(near_corners, faces) and faces % 2 == 0),
+        ("numbers of corners divisible by eight", corners % 8 == near_corners % 8 == 0 and (triangles + 4) % 16 == 0),
+        (f"no more triangles than {corners} corners can form", triangles <= 2 * corners - 4),
+        ("a number of faces that a hull can have", may_be_convex(near_corners, faces) and faces % 2 == 0),
     ]
     return satisfied("ball of diameter 32", outcomes)
 
@@ -153,7 +153,7 @@ def triangles_of_360_corners() -> Check:
     """Check that 360 local corners, found by testing 26 neighbours, are too few for the printed 1404 triangles."""
     _, _, near_corners, triangles, _ = numbers_of_ball()
     most = 2 * near_corners - 4
-    return refuted(triangles > most, f"{near_corners} corners make at most {most} triangles; printed: {triangles}")
+    return refuted(triangles > most, f"{near_corners} corners form at most {most} triangles; {triangles} are printed")
 
 
 @claim("kovalevsky-schulz.39", "kovalevsky-schulz.40", "kovalevsky-schulz.41", "kovalevsky-schulz.42")
@@ -186,10 +186,10 @@ def table_4() -> Check:
     """
     printed = corrected_print("kovalevsky-schulz")
     triangles, corners, integers = numbers_in(printed["table4-triangulation"][0])
-    outcomes = [("(5)", 2 * integers == 9 * triangles and abs(triangles - 2 * corners) <= 20)]
+    outcomes = [("formula (5)", 2 * integers == 9 * triangles and abs(triangles - 2 * corners) <= 20)]
     faces, corners, integers = numbers_in(printed["table4-hull"][0])
-    outcomes.append(("(6) and a possible hull", integers == 3 * corners + 5 * faces and may_be_convex(corners, faces)))
-    return satisfied("Table 4", outcomes)
+    hull = integers == 3 * corners + 5 * faces and may_be_convex(corners, faces)
+    return satisfied("Table 4", [*outcomes, ("formula (6), and numbers that a hull can have", hull)])
 
 
 def counts_in_table_1(scene: str) -> list[int]:

@@ -90,7 +90,7 @@ def additional_labels(cases: int = 3) -> Check:
         away = all(any(minus((x, y, z), step) in solid for step in STEPS) for x, y, z in added)
         return _placed(solid, VERTICES) - {*solid} == added and away and max(map(sum, added)) > max(map(sum, solid))
 
-    message = "each further element is next to a voxel that is nearer to the origin"
+    message = "each labelled element outside V is next to a voxel of V that is nearer to the origin"
     return search(SOLIDS, agrees, cases, message)
 
 
@@ -98,7 +98,7 @@ def additional_labels(cases: int = 3) -> Check:
 def cells_of_a_cube() -> Check:
     cubes = [(n, len(_complex((x, y, z) for x, y, z in product(range(n), repeat=3)))) for n in range(1, 7)]
     large = (2 * 256 + 1) ** 3 / 256**3
-    message = f"cubes of n^3 voxels have (2 n + 1)^3 cells, {large:.2f} times as many if n is 256"
+    message = f"a cube of n^3 voxels has (2 n + 1)^3 cells: {large:.2f} for each voxel if n is 256"
     check = exhibited(all(m == (2 * n + 1) ** 3 for n, m in cubes) and round(large) == 8, message)
     return check.unless(cubes[0][1] > 16, f"a single voxel, whose complex has {cubes[0][1]} cells")
 
@@ -133,7 +133,7 @@ def incidence_by_coordinates() -> Check:
     outcomes.append(any(near[f] - near[e] for e in cells for f in near[e] & {*cells}))
     message = f"each of {len(cells)} cells has one element, whose coordinates tell its dimension and incident cells; "
     message += "incidence is symmetric and reflexive, but not transitive"
-    return exhausted("cells of a block of eight voxels, which rasters repeat, and pairs of them", outcomes, message)
+    return exhausted("cells of a block of eight voxels, which a raster repeats, and pairs of these", outcomes, message)
 
 
 @claim("kovalevsky-schulz.32", "kovalevsky-schulz.138")
@@ -143,8 +143,8 @@ def cells_with_common_coordinates() -> Check:
     for cell in product(range(8), repeat=3):
         dimensions.setdefault(farthest_ground_cell(cell), []).append(dimension(cell))
     outcomes = [sorted(of_voxel) == [0, 1, 1, 1, 2, 2, 2, 3] for of_voxel in dimensions.values()]
-    message = "eight cells, as many as a byte has bits, have the coordinates of each voxel; one of them is a 0-cell"
-    return exhausted("voxels of a block of 64, which rasters repeat", outcomes, message)
+    message = "eight cells have the coordinates of each voxel, as many as a byte has bits; one of the eight is a 0-cell"
+    return exhausted("the voxels of a block of 64, which a raster repeats", outcomes, message)
 
 
 @cache
@@ -208,4 +208,4 @@ def connected_by_paths() -> Check:
         expected = {(e, f) for e, f in product(range(len(group)), repeat=2) if group[e] == group[f]}
         outcomes.append(connected(cells) == expected)
     domain = "3-complexes with up to 4 cells"
-    return exhausted(domain, outcomes, "connected cells are those that paths of incident cells join")
+    return exhausted(domain, outcomes, "two cells are connected if and only if a path of incident cells joins them")

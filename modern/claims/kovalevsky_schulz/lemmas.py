@@ -35,10 +35,10 @@ def smaller_polyhedron(vertices: str) -> Check:
     message = "all vertices of the smaller tetrahedron are on the boundary of the larger one"
     if vertices == "moved":
         doubled_middles = [plus(p, q) for p, q in combinations(corners, 2)]
-        message += f", and {lower} is not a vertex of the larger one; the midpoints of its edges form an octahedron"
+        message += f", and {lower} is no vertex of that; the midpoints of a tetrahedron's edges form an octahedron"
         return refuted(wrong and len(exact_hull(doubled_middles).vertices) == 6, message)
     four = [p for p in product((0, 1), repeat=3) if sum(p) % 2 == 0]
-    message += "; four alternate corners of a cube form such a smaller tetrahedron, too"
+    message += "; four corners of a cube, no two of them adjacent, form such a smaller tetrahedron, too"
     return refuted(wrong and exact_hull(four).dimension == 3, message)
 
 
@@ -49,7 +49,7 @@ def vertices_are_local_corners(cases: int = 2) -> Check:
         planes = {facet.plane for facet in exact_hull(points_of(solid, of)).facets}
         return {*cells.planes()} == planes and {*cells.points} <= local(solid, of)
 
-    message = "the hull of the local corners is that of the points, with local corners only"
+    message = "the hull of the local corners is that of all points, and its vertices are local corners"
     return search(SOLIDS, lambda solid: all(agrees(solid, of) for of in KINDS), cases, message)
 
 
@@ -58,9 +58,9 @@ def proof_of_the_algorithm(cases: int = CASES) -> Check:
     lemmas = [lemma().check().holds for lemma in (lemma_lz, lemma_ch, lemma_be)]
     construction = growing_polyhedra(cases)
     false = [smaller_polyhedron("interior"), smaller_polyhedron("moved"), coefficients_by_cosines()]
-    message = f"{sum(lemmas)} lemmas are proved; {construction.message}"
+    message = f"the project proves the paper's {sum(lemmas)} lemmas; {construction.message}"
     check = searched(SETS[3], cases, [*lemmas, construction.holds], message)
-    case = f"the printed proof, in which {len(false)} statements are false and no face is coplanar with the new point"
+    case = f"the printed proof, with {len(false)} false statements and without faces coplanar with the new point"
     # A point beyond the edge of the cube with corners from 0 to 2 that is between the faces x = 2 and z = 0.
     visible, hidden, way = (1, 0, 0), (0, 0, -1), minus((4, 1, 0), (2, 1, 0))
     has_zero_coefficient = -dot(hidden, way) == 0 < dot(visible, way)
@@ -119,8 +119,8 @@ def section_angles(cases: int = CASES) -> Check:
             for line, normal in product((upright, way), (visible[:3], hidden[:3])):
                 is_right = dot(normal, outward) > 0 and _cosine(normal, line) + _cosine(normal, outward) == 1
                 (elsewhere if line is way else at_foot).append(is_right)
-    message = f"{len(right)} angles are those of the proof, with Q at the foot of the perpendicular"
-    case = f"{elsewhere.count(False)} angles with Q at an end of the edge, and by {sharp.count(False)} at sharp edges"
+    message = f"{len(right)} angles are those of the proof if Q is the foot of the perpendicular from P"
+    case = f"{elsewhere.count(False)} angles if Q is an end of the edge, and by {sharp.count(False)} at sharp edges"
     return searched(SETS[3], cases, right, message).unless(False in elsewhere and False in sharp, case)
 
 

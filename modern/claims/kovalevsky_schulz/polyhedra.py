@@ -64,8 +64,8 @@ def either_treatment(cases: int = CASES) -> Check:
             faces = {frozenset(straight.points[k - 1] for k in face.vertices) for face in straight.faces}
             outcomes.append(faces == {frozenset(points[k] for k in f.polygon) for f in judge.facets})
             outcomes.append({*straight.planes()} == {f.plane for f in judge.facets})
-    message = "with coplanar faces visible or not, the cell lists of a cubic grid "
-    return searched(SETS[3], cases, outcomes, f"{message}and {cases} sets are the exact hull's")
+    message = f"the cell lists of a cubic grid and {cases} sets are those of the exact hulls, whether coplanar faces "
+    return searched(SETS[3], cases, outcomes, f"{message}count as visible or as invisible")
 
 
 @claim("kovalevsky-schulz.35", full=400)
@@ -75,7 +75,7 @@ def any_order(cases: int = CASES) -> Check:
         for order in (points, points[::-1], sorted(points)):
             outcomes.append(exact_hull([order[k] for k in independent(order)]).dimension == 3)
             outcomes.append({*merged(polyhedron(order)).planes()} == {f.plane for f in judge.facets})
-    return searched(SETS[3], cases, outcomes, f"{len(outcomes) // 2} orders begin with a tetrahedron and give the hull")
+    return searched(SETS[3], cases, outcomes, f"{len(outcomes) // 2} orders start with a tetrahedron and give the hull")
 
 
 @claim("kovalevsky-schulz.127", "kovalevsky-schulz.169", "kovalevsky-schulz.77", full=400)
@@ -90,8 +90,8 @@ def growing_polyhedra(cases: int = CASES) -> Check:
             outcomes += [plane_value(plane, p) <= 0 for plane in cells.planes() for p in before.points]
             was_inside = all(plane_value(plane, new) <= 0 for plane in before.planes())
             outcomes.append(was_inside or new in cells.points)
-    message = "every polyhedron is the intersection of half-spaces and contains all points and polyhedra before it; "
-    return searched(SETS[3], cases, outcomes, f"{message}each new point becomes a vertex or was inside")
+    message = "every polyhedron is the intersection of half-spaces and contains all earlier points and polyhedra; "
+    return searched(SETS[3], cases, outcomes, f"{message}each new point becomes a vertex or is already inside")
 
 
 @claim("kovalevsky-schulz.50", "yau-srihari.15", full=120)
@@ -103,7 +103,7 @@ def points_that_see_no_face(cases: int = 1) -> Check:
         inside = point in points or len(points) not in exact_hull([*points, point]).vertices
         outcomes.append(unseen == inside)
         held += inside
-    message = f"true for {len(outcomes)} points with coordinates 1 and 4, {held} of them in the hull"
+    message = f"this is true for {len(outcomes)} points with coordinates 1 and 4; the hull contains {held} of them"
     return searched(SETS[3], cases, [*outcomes, held], message)
 
 
@@ -122,8 +122,8 @@ def cells_removed(cases: int = CASES) -> Check:
         remaining_edges = {e for e in judge.edges() if any({*e} <= h for h in hidden)}
         checks.append({e for e in after.edges() if len(points) not in e} == remaining_edges)
     generator = replace(SETS[3], name=f"{SETS[3].name}, and two points outside unless they are in the plane of a face")
-    message = f"{len(checks) // 3} points outside a hull replace the faces that they see, with all edges and vertices "
-    return searched(generator, cases, checks, f"{message}of these only, by a triangle on each edge of their boundary")
+    message = f"each of {len(checks) // 3} points outside a hull replaces the faces that it sees, and edges and "
+    return searched(generator, cases, checks, f"{message}vertices of only these, by a triangle on each boundary edge")
 
 
 @claim("kovalevsky-schulz.52")
@@ -142,7 +142,7 @@ def cube_visible_from_corner() -> Check:
 def coplanar_triangles() -> Check:
     cells = polyhedron(GRID)
     passed = len(merged(cells).faces) == 6 < len(cells.faces)
-    return exhibited(passed, f"a cubic grid of points gets {len(cells.faces)} triangles, which are merged to 6 faces")
+    return exhibited(passed, f"the hull of a cubic grid has {len(cells.faces)} triangles, which are merged to 6 faces")
 
 
 @claim("kovalevsky-schulz.166")
@@ -152,7 +152,7 @@ def many_coplanar_triangles() -> Check:
     cells = polyhedron([(x, y, z) for x, y in circle for z in (0, 1)])
     faces, in_base = len(merged(cells).faces), cells.planes().count((0, 0, -1, 0))
     passed = in_base == len(circle) - 2 and faces == len(circle) + 2
-    message = f"a prism with {len(circle)} sides gets {len(cells.faces)} triangles, {in_base} of them in each base"
+    message = f"a prism with {len(circle)} sides has {len(cells.faces)} triangles, {in_base} of them in each base"
     return exhibited(passed, f"{message}; they are merged to {faces} faces")
 
 
@@ -161,7 +161,7 @@ def unmerged_triangles(cases: int = CASES) -> Check:
     lists = [polyhedron(points) for points in (GRID, *(points for points, _ in hulls(cases)))]
     outcomes = [{*cells.planes()} == {*merged(cells).planes()} for cells in lists]
     outcomes += [all(len(face.pairs) == 3 for face in cells.faces) for cells in lists]
-    message = f"a cubic grid and {cases} sets have hulls of triangles, with the same planes before and after merging"
+    message = f"the hulls of a grid and {cases} sets consist of triangles, and merging them changes no plane"
     return searched(SETS[3], cases, outcomes, message)
 
 
@@ -170,8 +170,8 @@ def invisible_needs_fewer_faces() -> Check:
     before, after = (coplanar_hull(points, QUADRANGLES) for points in (PYRAMID, LARGER_PYRAMID))
     invisible, visible = after.created - before.created, _created(LARGER_PYRAMID) - _created(PYRAMID)
     passed = [*after.faces] == polygons(LARGER_PYRAMID) and after.larger > before.larger and invisible < visible
-    message = f"a point adds {invisible} new faces to a pyramid if coplanar faces are invisible, "
-    return exhibited(passed, f"{message}and {visible} if visible")
+    message = f"a point adds {invisible} new faces to a pyramid if coplanar faces count as invisible, "
+    return exhibited(passed, f"{message}and {visible} if they count as visible")
 
 
 def _created(points: Sequence[Point]) -> int:
@@ -187,7 +187,7 @@ def _created(points: Sequence[Point]) -> int:
 @claim("kovalevsky-schulz.58")
 def extended_faces() -> Check:
     extended = coplanar_hull(GRID, EXTENDED)
-    message = f"the hull of a cubic grid of points is found; {extended.extended} times, a face is extended to a point"
+    message = f"the hull of a cubic grid of points is found by extending a face to a point {extended.extended} times"
     return exhibited([*extended.faces] == polygons(GRID) and extended.extended > 0, message)
 
 
@@ -199,7 +199,7 @@ def fewest_new_faces(cases: int = 3) -> Check:
         return [*extended.faces] == polygons(solid) and extended.created < fewest
 
     spatial = replace(SOLIDS, name=f"{SOLIDS.name}, not flat", accepts=lambda s: exact_hull(s).dimension == len("xyz"))
-    message = "the hulls are exact and have fewer new faces than with coplanar faces visible, or invisible as in Fig. 7"
+    message = "the hulls are exact, with fewer new faces than if coplanar faces are visible, or invisible as in Fig. 7"
     return search(spatial, has_fewest, cases, message)
 
 
@@ -225,8 +225,8 @@ def quadrangles() -> Check:
     before, after = (coplanar_hull(points, QUADRANGLES) for points in (PYRAMID, LARGER_PYRAMID))
     outcomes += [after.larger == before.larger + 1, [*after.faces] == faces]
     corners = len(ends | between) + 1
-    message = f"the new face has {corners} corners and, with the square, {len(common)} common edges; "
-    return exhibited(all(outcomes) and corners == 4, f"{message}the new point is joined to {len(ends)} ends")
+    message = f"the new face has {corners} corners and shares {len(common)} edges with the square; "
+    return exhibited(all(outcomes) and corners == 4, f"{message}the new point is joined to the {len(ends)} ends")
 
 
 @claim("kovalevsky-schulz.163", treatment="invisible")
@@ -237,7 +237,7 @@ def collinear_edges(treatment: str) -> Check:
     removed = {*cells.points} - {*straightened(cells).points}
     becomes = removed == {points[1]} if treatment == INVISIBLE else coplanar_hull(points, EXTENDED).straightened > 0
     passed = exact_hull(points).vertices == (0, 2, 3, 4, 5) and becomes
-    return exhibited(passed, f"two edges at {points[1]} become collinear, and it is no longer a vertex")
+    return exhibited(passed, f"two edges at {points[1]} become collinear, so that this point is no longer a vertex")
 
 
 @claim("kovalevsky-schulz.44", "kovalevsky-schulz.160", full=1_000)
@@ -253,7 +253,7 @@ def economical_encoding(cases: int = 4) -> Check:
         is_restored = _incidences(expanded(cells.economical())) == _incidences(cells)
         return is_restored and on_both_faces and {frozenset((e.start, e.end)) for e in edges} == hull_edges
 
-    message = "the edges and their faces follow from the economical encodings of the triangles and of the merged faces"
+    message = "the edges, and the faces of each, follow from the vertices of the faces, for triangles and merged faces"
     return search(SOLIDS, returns, cases, message)
 
 
@@ -279,5 +279,5 @@ def reconstruction(of: Of, cases: int = 2) -> Check:
         filled: list[list[int]] = Volume(digital_hull(volume).filled, volume.origin).coordinates().tolist()
         return _restored(solid, of) == filled == _restored(filled, of)
 
-    message = "the filled hull of each solid is restored from its own cell list and from that of the solid"
+    message = "each solid, with its hull filled, is restored from its cell list and from that of the filled solid"
     return search(SOLIDS, restores, cases, message)

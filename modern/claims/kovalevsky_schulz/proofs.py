@@ -37,8 +37,8 @@ def last_of_three_choices() -> Proof:
     terms = tuple(term(axis, d) for axis, d in zip("xyz", way, strict=True))
     return Proof.of(
         "a single vector remains after the choices of the largest x, y and z",
-        "A finite set that is not empty has a largest x, and so have the vectors chosen by it a largest y, and those "
-        "chosen by both a largest z. Two vectors that remain have the same x, y and z, and so their distance is 0.",
+        "A finite set that is not empty has a largest x, the vectors with this x have a largest y, and the vectors "
+        "with both have a largest z. Two vectors that remain have the same x, y and z, and so their distance is 0.",
         Step("the square of their distance is 0", equal, zero(dot(way, way)), terms),
     )
 
@@ -60,8 +60,8 @@ def lemma_lz() -> Proof:
         "a part of a finite set that a linear inequality cuts off contains a point that is no combination of others",
         "The part is not empty, so it contains all points with the largest value of the linear function H. Among them "
         "take those with the largest x, then the largest y, and then the largest z: one point c. If c is a "
-        "combination of points of the set with positive weights, all of them have the H of c. Then they have its x, y "
-        "and z, and so they are c. More than two points are combined one after the other.",
+        "combination of points of the set with positive weights, all these points have the same H as c. Then they "
+        "have the same x, y and z, and so are equal to c. More than two points are combined one after the other.",
         *largest_of_part().steps,
         *last_of_three_choices().steps,
         *largest_combination().steps,
@@ -72,28 +72,28 @@ def lemma_lz() -> Proof:
 def lemma_ch() -> Proof:
     return Proof.of(
         "a convex polyhedron that contains all local corners, and whose vertices are local corners, is the hull",
-        "If a point of V is not in K, an inequality of K cuts it off. By lemma LZ the part cut off contains a point "
-        "that is no combination, hence a local corner, but K contains these. So K contains V. Let K' be convex, "
-        "contain V and have its vertices in K. By Minkowski's theorem a convex polyhedron consists of the combinations "
-        "of its vertices. The vertices of K are in V, hence in K', and so K is in K'. In the same way K' is in K.",
+        "If a point of the set V is not in the polyhedron K, an inequality of K cuts it off. By lemma LZ the part cut "
+        "off contains a local corner, because one of its points is no combination of others. But K contains all local "
+        "corners, and so V. Let a convex polyhedron K' contain V and have its vertices in K. It consists of the "
+        "combinations of these (Minkowski). As the vertices of K are in V, hence in K', K is in K'. So is K' in K.",
         largest_value(),
         *combination_satisfies(),
     )
 
 
 @proves("kovalevsky-schulz.14", "kovalevsky-schulz.16", "kovalevsky-schulz.17")
-@proves("kovalevsky-schulz.121", conclusion="a smaller polyhedron does not contain all vertices")
-@proves("kovalevsky-schulz.167", conclusion="the vertex is no combination of other points")
-@proves("appel-will.16", conclusion="a combination of listed points is no new vertex")
+@proves("kovalevsky-schulz.121", conclusion="a smaller convex polyhedron does not contain all vertices")
+@proves("kovalevsky-schulz.167", conclusion="a vertex is no combination of other points of the polyhedron")
+@proves("appel-will.16", conclusion="a combination of points that are already listed is not a new vertex")
 @proves("appel-will.19", conclusion="all vertices of the hull are vertices of the polyhedron")
-@proves("appel-will.41", "appel-will.133", conclusion="a point between two others is no vertex")
+@proves("appel-will.41", "appel-will.133", conclusion="a point between two others is no vertex of the hull")
 def no_combination() -> Proof:
     return Proof.of(
-        "a point of a convex polyhedron is a vertex if and only if it is a combination of no other points of it",
+        "a point of a convex polyhedron is a vertex if and only if it is no combination of other points of it",
         "A vertex is the only point with the largest value of some linear function, so that a combination of other "
-        "points has a smaller value. So no point between two others is a vertex, and no vertex of the hull of any "
-        "polyhedron is inside the polyhedron, a face or an edge. A polyhedron whose vertices are other points of the "
-        "old one does not contain the vertex. By Minkowski's theorem every point is a combination of vertices. So a "
+        "points has a smaller value. So no point between two others is a vertex, and no vertex of a polyhedron's hull "
+        "lies inside the polyhedron, a face or an edge. A polyhedron all of whose vertices are other points of the "
+        "given one does not contain the vertex. By Minkowski's theorem every point is a combination of vertices. So a "
         "convex polyhedron that contains all vertices contains the whole polyhedron, and a smaller one does not "
         "contain all vertices.",
         largest_value(),
@@ -102,16 +102,16 @@ def no_combination() -> Proof:
 
 
 @proves("kovalevsky-schulz.49")
-@proves("kovalevsky-schulz.173", conclusion="visible faces make acute angles, invisible ones obtuse")
+@proves("kovalevsky-schulz.173", conclusion="visible faces' normals make acute angles with P - Q, others obtuse")
 def choice_of_q() -> Proof:
     n, p, q, r = (point(name, 3) for name in "npqr")
     in_face, difference = zero(dot(n, minus(q, r))), zero(dot(n, minus(p, q)) - dot(n, minus(p, r)))
     says = "the product of the normal with P - Q does not depend on Q"
     return Proof.of(
-        "the scalar product of a face's normal with the way to P is the same from all points Q of the face",
-        "The normal is perpendicular to the way from one point of the face to another. So the sign of its product with "
-        "the way to P is the same for all of them. By definition VI it is positive for a visible face, which is an "
-        "acute angle, and negative for an invisible one, which is an obtuse angle.",
+        "the scalar product of a face's normal with the vector P - Q is the same for all points Q of the face",
+        "The normal is perpendicular to vectors from one point of the face to another. So its product with P - Q is "
+        "the same for all points Q of the face. By definition VI the product is positive for a visible face, so that "
+        "the angle is acute, and negative for an invisible face, so that the angle is obtuse.",
         Step(says, {"face": in_face}, difference, (term("face", -1),)),
     )
 
@@ -122,8 +122,8 @@ def halves() -> Proof:
     smaller = positive((w_p + w_q) * x - w_p * p - w_q * q)
     return Proof.of(
         "the hulls of two sets do not meet if a plane x = c is between the sets",
-        "All combinations of points with a smaller x have a smaller x. The other set is treated in the same way with "
-        "the opposite sign.",
+        "All combinations of points with an x smaller than c have an x smaller than c. The other set is treated in "
+        "the same way with the opposite sign.",
         Step("x of a combination is smaller", below, smaller, (term("w_p p"), term("w_q q"))),
     )
 
@@ -141,7 +141,7 @@ def symmetry() -> Proof:
 
 @proves("kovalevsky-schulz.71")
 @proves("kovalevsky-schulz.72", conclusion="the outward normal of the plane is a N_v + b N_n with positive a and b")
-@proves("kovalevsky-schulz.168", conclusion="the product with the new normal is not positive")
+@proves("kovalevsky-schulz.168", conclusion="the scalar product with the normal of the new plane is not positive")
 def lemma_be() -> Proof:
     visible, hidden = point("v", 3), point("n", 3)
     edge, new, way = point("e", 3), point("p", 3), point("w", 3)
@@ -158,12 +158,12 @@ def lemma_be() -> Proof:
     along_edge = {"v": zero(dot(visible, edge)), "n": zero(dot(hidden, edge))}
     combined = term("v", a), term("n", b)
     return Proof.of(
-        "the plane through the new point and a horizon edge has the whole polyhedron on one side",
-        "Let Q be a point of the edge, and let N_v and N_n be the normals of the visible and of the other face. With "
-        "a = -N_n (P - Q) and b = N_v (P - Q), the vector a N_v + b N_n is perpendicular to P - Q and to the edge. "
-        "Its product with the way from Q to any point of the polyhedron is not positive. It is negative at inner "
-        "points, and so the vector is not zero. b is positive, and a is positive unless the other face is coplanar "
-        "with P.",
+        "the plane through the new point and an edge of the visible faces' boundary has the polyhedron on one side",
+        "Let P be the new point, Q a point of the edge, and N_v and N_n the normals of the visible and of the other "
+        "face. With a = -N_n (P - Q) and b = N_v (P - Q), the vector a N_v + b N_n is perpendicular to P - Q and to "
+        "the edge. Its product with the vector from Q to any point of the polyhedron is not positive. The product is "
+        "negative at inner points, and so a N_v + b N_n is not zero. b is positive, and a is positive unless the "
+        "other face is coplanar with P.",
         Step("the normal is perpendicular to P - Q", {}, zero(dot(normal, new))),
         Step("the normal is perpendicular to the edge", along_edge, zero(dot(normal, edge)), combined),
         Step("no point of the polyhedron is beyond the new plane", signs, not_negative(-dot(normal, way)), terms),

@@ -26,7 +26,7 @@ from modern.papers.kovalevsky_schulz.results import half_ball_cells
 def formula_5(cases: int = CASES) -> Check:
     lists = [polyhedron(points) for points, _ in hulls(cases)]
     excess = [3 * len(c.vertices) + 3 * len(c.faces) - triangulation_size(len(c.faces)) for c in lists]
-    return searched(SETS[3], cases, [e == 6 for e in excess], "hulls of triangles need 6 integers more than (5) gives")
+    return searched(SETS[3], cases, [e == 6 for e in excess], "triangulated hulls need 6 integers more than (5) gives")
 
 
 @claim("kovalevsky-schulz.91")
@@ -58,7 +58,7 @@ def memory_requirements() -> Check:
     smaller = [economical_size(c) < triangulation_size(2 * len(c.vertices) - 4) for c in chain(*_bodies())]
     exact = {d: f"{economical_size(half_ball_cells(d))} integers at diameter {d}" for d in more}
     message = f"the cell list is smaller than the triangles of Marching Cubes in {sum(fewer)} of {len(fewer)} cases; "
-    message += f"by formula (6), {', '.join(more.values())}; the cell list itself has {', '.join(exact.values())}"
+    message += f"by formula (6), {', '.join(more.values())}; the cell lists themselves have {', '.join(exact.values())}"
     return exhibited(all(fewer) and all(smaller) and {*more} == {10, 18}, message)
 
 
@@ -89,17 +89,17 @@ def vertices_of_a_face() -> Check:
     for bodies in _bodies():
         points, faces = [sum(len(f.vertices) for f in c.faces) for c in bodies], [len(c.faces) for c in bodies]
         means.append((Fraction(sum(points), sum(faces)), sum(map(Fraction, points, faces)) / len(bodies)))
-    texts = [f"{float(first):.2f} over all faces, {float(second):.2f} over the bodies" for first, second in means]
-    check = exhibited(all(round(mean) == 5 for mean in means[0]), f"means of points: {texts[0]}")
-    return check.unless(all(round(mean) != 5 for mean in means[1]), f"the means of vertices: {texts[1]}")
+    texts = [f"{float(first):.2f} over all faces, {float(second):.2f} over bodies' means" for first, second in means]
+    check = exhibited(all(round(mean) == 5 for mean in means[0]), f"mean numbers of points of a face: {texts[0]}")
+    return check.unless(all(round(mean) != 5 for mean in means[1]), f"the mean numbers of vertices: {texts[1]}")
 
 
 @claim("kovalevsky-schulz.81")
 def formula_6() -> Check:
     groups = (*_bodies(), [half_ball_cells(10)])
     points, vertices, alone = (sum(map(_size, group)) / sum(map(economical_size, group)) for group in groups)
-    check = exhibited(abs(points - 1) < 0.05, f"{points:.3f} times the exact number of integers")
-    case = f"cell lists of vertices only, {vertices:.3f} times, and diameter 10, {alone:.2f} times the exact number"
+    check = exhibited(abs(points - 1) < 0.05, f"formula (6) gives {points:.3f} times the exact number of integers")
+    case = f"lists of vertices only, {vertices:.3f} times, and diameter 10 alone, {alone:.2f} times the exact number"
     return check.unless(vertices > 1.1 and alone > 1.2, case)
 
 
@@ -124,9 +124,9 @@ def diameter_8() -> Check:
     # A list has 3 V + 2 E integers and, if the number of pairs of each face counts, F more; E = V + F - 2.
     constants = [2 * (row.faces - 2) + more for more in (0, row.faces)]
     exact = any((row.integers - constant) % 5 == 0 for constant in constants)
-    message = f"(6) implies {row.corners} vertices with {row.faces} faces, which allow {2 * row.faces - 4}; "
-    message += "quarter turns move all vertices but one in groups of 4; "
-    message += f"a cell list itself has {' or '.join(f'5 V + {constant}' for constant in constants)} integers"
+    message = f"(6) implies {row.corners} vertices, but {row.faces} faces allow at most {2 * row.faces - 4}; "
+    message += "quarter turns permute all vertices except one in groups of 4; "
+    message += f"a cell list of V vertices has {' or '.join(f'5 V + {constant}' for constant in constants)} integers"
     return refuted(not possible and not exact, message)
 
 
@@ -156,14 +156,14 @@ def row_of_table_5(diameter: int) -> Check:
     half, others = half_ball(diameter), {_size(hull)}
     of_centres = voxel_hull(half, CENTRES, 6, INVISIBLE).polyhedron.faces
     if _size(of_centres) != row.integers:
-        case += f", the hull of the voxels' centres, which has {len(of_centres.faces)} faces and "
-        case += f"{len(of_centres.vertices)} points, which give {_size(of_centres)} integers"
+        case += f"; the hull of the voxels' centres, whose {len(of_centres.faces)} faces and "
+        case += f"{len(of_centres.vertices)} points give {_size(of_centres)} integers"
     if hull != cells:
-        case += f", the {len(hull.vertices)} vertices of the strict hull, which give {_size(hull)} integers, and 26 "
+        case += f"; the {len(hull.vertices)} vertices without points on edges, with {_size(hull)} integers; and 26 "
         by_26 = [voxel_hull(half, VERTICES, 26, coplanar) for coplanar in (INVISIBLE, VISIBLE)]
         by_6 = [voxel_hull(half, VERTICES, 6, *way) for way in ((VISIBLE, RASTER), (INVISIBLE, SHUFFLED))]
         others |= {_size(h.polyhedron.faces) for h in (*by_26, *by_6)}
-        case += f"neighbours, visible coplanar faces or a random order, which give at most {max(others)}"
+        case += f"neighbours, visible coplanar faces or a random order, which give at most {max(others)} integers"
     case += f"; the cell list itself has {economical_size(cells)} integers"
     is_formula = row.integers not in (economical_size(cells), economical_size(hull))
     refutes = (row.faces, row.integers) not in numbers and is_formula and (hull == cells or row.integers not in others)
@@ -182,7 +182,7 @@ def diameter_12() -> Check:
     exact = 3 * len(hull.vertices) + sum(len(facet.polygon) for facet in hull.facets)
     case = f"the half-ball centred on a corner of voxels, which has {len(others.faces)} faces; points on straight "
     case += f"edges, with which {len(cells.vertices)} points give {_size(cells)} integers; and the cell list itself, "
-    case += f"which has {exact}"
+    case += f"which has {exact} integers"
     refutes = len(others.faces) != row.faces and row.integers not in (exact, _size(cells))
     return exhibited(agrees, message).unless(refutes, case)
 

@@ -63,7 +63,7 @@ def local_corner_inside_hull() -> Check:
 
 @claim("kovalevsky-schulz.18", full=4_000)
 def fewer_corners_with_more_neighbours(cases: int = 5) -> Check:
-    message = "local corners by 26 neighbours are local corners by 6, among voxels and among corners of voxels"
+    message = "local corners found with 26 neighbours are found with 6 too, among voxels and among corners of voxels"
     return search(SOLIDS, lambda solid: all(local(solid, of) <= local(solid, of, 6) for of in KINDS), cases, message)
 
 
@@ -74,7 +74,7 @@ def local_corners_of_vertices(cases: int = 5) -> Check:
         between = {p for p in points if any({plus(p, d), minus(p, d)} <= points for d in DIRECTIONS)}
         return local(solid, VERTICES) == points - between
 
-    return search(SOLIDS, agrees, cases, "exactly the corners between no two opposite neighbours are found")
+    return search(SOLIDS, agrees, cases, "the corners found are exactly those between no two opposite neighbours")
 
 
 def _corners(solid: Voxels) -> set[Point]:
@@ -99,7 +99,7 @@ def voxels_of_ball() -> Check:
     printed, numbers = numbers_of_ball()[0], [ball(32, centre).count for centre in (VOXEL, VERTEX)]
     inner = _ball_without_sphere().count
     check = exhibited(numbers[0] == printed, f"the ball centred on a voxel has {numbers[0]} voxels")
-    case = f"a ball centred on a corner of voxels, which has {numbers[1]}, and one without its sphere, with {inner}"
+    case = f"a ball centred on a corner, with {numbers[1]}, and one without the six voxels on its sphere, with {inner}"
     return check.unless(printed not in (numbers[1], inner), case)
 
 
@@ -108,9 +108,9 @@ def numbers_of_local_corners() -> Check:
     corners, voxels = ([len(local_corners(ball(32), of, n)) for n in (6, 26)] for of in (VERTICES, CENTRES))
     balls = ball(32, VERTEX), _ball_without_sphere()
     moved, inner = ([len(local_corners(other, VERTICES, n)) for n in (6, 26)] for other in balls)
-    message = f"the corners of voxels have {corners[0]} and {corners[1]} local corners"
+    message = f"of the corners of the voxels, {corners[0]} and {corners[1]} are local corners"
     case = f"the voxels, of which {voxels[0]} and {voxels[1]} are local corners, a ball centred on a corner of "
-    case += f"voxels, with {moved[0]} and {moved[1]}, and one without its sphere, with {inner[0]} and {inner[1]}"
+    case += f"voxels, with {moved[0]} and {moved[1]}, and one without the six voxels, with {inner[0]} and {inner[1]}"
     printed = numbers_of_ball()[1:3]
     return exhibited(corners == printed, message).unless(printed not in (voxels, moved, inner), case)
 
@@ -127,8 +127,8 @@ def printed_triangles() -> Check:
         on_one_face = on_face[on_face.sum(axis=1) == 1]
         replaced = np.maximum(on_one_face.sum(axis=0) - 1, 0).sum()
         most.append(2 * int(on_face.any(axis=1).sum() - replaced) - 4)
-    message = "with visible coplanar faces, 6 or 26 neighbours, and corners or centres, the ball has at most "
-    message += f"{max(most)} triangles in any order; printed: {printed}"
+    message = "if coplanar faces count as visible, the ball has, by 6 or 26 neighbours of corners or centres, at most "
+    message += f"{max(most)} triangles in any order of the points, but {printed} are printed"
     return refuted(max(most) < printed == len(hull_of_ball(32, INVISIBLE).polyhedron.triangles.faces), message)
 
 
@@ -139,11 +139,11 @@ def printed_faces() -> Check:
     balls = (ball(32), 6), (ball(32), 26), (ball(32, VERTEX), 6), (_ball_without_sphere(), 6)
     corners, fewer, moved, inner = (local_corners(solid, VERTICES, n).tolist() for solid, n in balls)
     others = {
-        "visible coplanar faces": _triangles(corners, VISIBLE),
+        "coplanar faces that count as visible": _triangles(corners, VISIBLE),
         "a random order of the corners": _triangles(Random(1).sample(corners, len(corners))),
-        f"{len(fewer)} corners": _triangles(fewer),
+        f"the {len(fewer)} corners found with 26 neighbours": _triangles(fewer),
         "a ball centred on a corner of voxels": _triangles(moved),
-        "a ball without its sphere": _triangles(inner),
+        "a ball without the voxels on its sphere": _triangles(inner),
         "the voxels' centres": _triangles(local_corners(ball(32), CENTRES, 6).tolist()),
     }
     case = "; ".join(f"{change}: {number} triangles" for change, number in others.items())
@@ -161,7 +161,7 @@ def corners_against_centres(cases: int = 2) -> Check:
         within = all(plane_value((*f.plane[:3], 2 * f.plane[3]), c) < 0 for f in outer.facets for c in centres)
         return within and {f.plane for f in outer.facets} == {f.plane for f in grown.facets}
 
-    message = "the hull of the corners contains the centres and is the hull of unit cubes about their hull's vertices"
+    message = "the hull of the corners contains the centres, and is that of unit cubes around their hull's vertices"
     return search(SOLIDS, agrees, cases, message)
 
 
@@ -185,7 +185,7 @@ def corners_of_eight_voxels() -> Check:
         ((1, 1, 1) in local(voxels, VERTICES, 6)) == (len(voxels) == 1) == beyond.isdisjoint(_corners(voxels))
         for voxels in subsets
     ]
-    message = "without other voxels, the corner is between two neighbours exactly if several meet there, edges in line"
+    message = "the corner is between two neighbours exactly if several voxels meet there, and then edges are in line"
     return exhausted("sets of the eight voxels at a corner that contain the first of them", outcomes, message)
 
 
@@ -195,4 +195,4 @@ def marching_cubes() -> Check:
     surface = [plus(voxel, d) for voxel in ((0, 0, 0), (4, 0, 0)) for d in DIRECTIONS if dot(d, d) == 1]
     planes = [facet.plane for facet in exact_hull(surface).facets]
     inner = [p for p in surface if max(plane_value(plane, p) for plane in planes) < 0]
-    return exhibited(inner, f"{len(inner)} of {len(surface)} vertices around two separate voxels are inside their hull")
+    return exhibited(inner, f"{len(inner)} of {len(surface)} vertices around two separate voxels are inside the hull")

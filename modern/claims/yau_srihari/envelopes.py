@@ -89,13 +89,13 @@ def algorithm_as_printed(name: str) -> Check:
     array = array_of(counterexample_points(f"yau_{name}.csv"))
     wrong, right = octree_hull(array, Printed.only(name)).filled, octree_hull(array).filled
     missing, more = int((right & ~wrong).sum()), int((wrong & ~right).sum())
-    message = f"as printed, the algorithm misses {missing} of the {int(right.sum())} voxels of the hull and adds {more}"
+    message = f"as printed, the algorithm misses {missing} of the hull's {int(right.sum())} voxels and adds {more}"
     return refuted(missing or more, message)
 
 
 @claim("yau-srihari.48", "yau-srihari.53", "yau-srihari.54", "yau-srihari.59", "yau-srihari.103", full=500)
 def envelopes_against_judge(cases: int = 3) -> Check:
-    message = "the envelopes are the lower and upper faces of the exact hull, with its digital points between them"
+    message = "the envelopes are the lower and upper faces of the exact hull, and its digital points are between them"
     return search(SOLIDS, _envelopes_agree, cases, message)
 
 
@@ -126,7 +126,7 @@ def disconnected_hull() -> Check:
     alone = middle in inside and not any(sum(abs(a - b) for a, b in zip(p, middle, strict=True)) == 1 for p in inside)
     whole = tuple(2 * m for m in middle) == (x + u, y + v, z + w)
     wrong = octree_hull(array_of(stairs)).components == 1 and whole and alone and not is_simple(array_of(inside))
-    message = f"the hull of {len(stairs)} connected voxels has {len(inside)} digital points, none next to {middle}"
+    message = f"the hull of {len(stairs)} connected voxels has {len(inside)} digital points; {middle} is next to none"
     return refuted(wrong, message)
 
 
@@ -137,7 +137,7 @@ def solid_from_deficiency(cases: int = 3) -> Check:
         without = hull_of(voxels).filled & ~convex_deficiency(solid)
         return _envelopes_agree(voxels) and np.array_equal(without, solid)
 
-    message = "each solid is what remains of the digital points in its exact hull without the deficiency"
+    message = "the digital points in the exact hull of each solid, without the deficiency, are those of the solid"
     return search(SOLIDS, is_described, cases, message)
 
 
@@ -151,8 +151,8 @@ def smallest_convex_solid() -> Check:
     path_fails &= not is_digitally_convex(array_of(path))
     voxels = (1, 0, 1), (1, 1, 1)
     completions = [p for p in voxels if p not in path and is_digitally_convex(array_of([*path, p]))]
-    message = f"the hull of {hull.solid_voxels} connected voxels has {hull.voxels} digital points and is convex"
-    case = f"a path of six voxels, which each of {len(completions)} other voxels makes convex"
+    message = f"the hull of {hull.solid_voxels} connected voxels has {hull.voxels} digital points, a convex solid"
+    case = f"a path of six voxels, which becomes convex if any one of {len(completions)} voxels is added"
     return exhibited(passed, message).unless(path_fails and len(completions) > 1, case)
 
 
@@ -185,7 +185,7 @@ def floor_and_ceiling() -> Check:
     columns = {(x, y): sorted(z for a, b, z in SOLID if (a, b) == (x, y)) for x, y, _ in SOLID}
     alpha, beta = ({at: zs[k] for at, zs in columns.items()} for k in (0, -1))
     floor, ceiling = dict(hull_of(SOLID).floor), dict(hull_of(SOLID).ceiling)
-    message = f"in {len(columns)} columns alpha is the floor and beta the ceiling"
+    message = f"in the {len(columns)} columns of a solid, alpha is the floor and beta the ceiling"
     as_printed, as_corrected = (alpha, beta) == (ceiling, floor), (alpha, beta) == (floor, ceiling)
     return slip(as_printed, as_corrected, "the floor and the ceiling", message)
 
@@ -197,7 +197,7 @@ def extreme_points_in_floor(cases: int = 5) -> Check:
         # The extreme points of the convex envelope are the vertices of the faces that are seen from below.
         return {points[k] for f in exact_hull(points).facets if f.plane[2] < 0 for k in f.polygon} <= floor
 
-    return search(SOLIDS, are_in_floor, cases, "all extreme points are in the floor")
+    return search(SOLIDS, are_in_floor, cases, "all extreme points of the envelope are points of the floor")
 
 
 @claim("yau-srihari.67", full=500)
@@ -243,7 +243,7 @@ def triangles_of_a_hull(cases: int = 2) -> Check:
             faces = {frozenset(facet.polygon) for facet in exact_hull(points).facets}
             outcomes += [(frozenset(three) in faces) == (three in supporting) for three in values]
     generator = replace(SETS[3], name=f"the first six points of {SETS[3].name}, without four in a supporting plane")
-    check = searched(generator, sets, outcomes, f"true for {len(outcomes)} triangles")
+    check = searched(generator, sets, outcomes, f"the statement is true for {len(outcomes)} triangles")
     # A face that is seen from below and has more than three corners is none of the triangles of its corners.
     facets = exact_hull(counterexample_points("yau_triangles.csv")).facets
     parts_of_faces = sum(comb(len(f.polygon), 3) for f in facets if f.plane[2] < 0 and len(f.polygon) > 3)
@@ -274,5 +274,5 @@ def epigraph_at_inner_nodes() -> Check:
         outcomes.append(all(full[at] == (at[2] >= tree.values[at[:2]]) for at in product(range(2), repeat=3)))
         if tree.low == 0 and count(epigraph) < 8:
             too_full.append(f"the root for the heights {tops}, which would have 8 voxels instead of {count(epigraph)}")
-    check = exhausted("heights from 0 to 2 of 2 by 2 columns", outcomes, "columns are full from their heights upward")
+    check = exhausted("heights from 0 to 2 of 2 by 2 columns", outcomes, "each column is full from its height upward")
     return check.unless(too_full, too_full[0])

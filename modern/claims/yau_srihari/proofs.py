@@ -45,11 +45,11 @@ def hull_is_convex() -> Proof:
     new_weight = not_negative((1 - m) * w + m * k)
     return Proof.of(
         "the combinations of points form the smallest convex set that contains the points",
-        "With the weights w and k of a point in the two combinations its new weight is (1 - m) w + m k. This is not "
-        "negative, and the new weights have the sum (1 - m) + m = 1. So the segment between two combinations consists "
-        "of combinations. A convex set that contains the points contains all combinations of them: if m < 1 is the "
-        "weight of one point, the combination is between this point and the combination of the fewer other points with "
-        "their weights divided by 1 - m.",
+        "A point with the weights w and k in two combinations has the weight (1 - m) w + m k in a combination between "
+        "them. This is not negative, and the new weights have the sum (1 - m) + m = 1. So the segment between two "
+        "combinations consists of combinations. A convex set that contains the points contains all combinations of "
+        "them: if m < 1 is the weight of one point, the combination is between this point and a combination of the "
+        "others, which are fewer and have weights divided by 1 - m.",
         Step("the new weight is not negative", weights, new_weight, (term("rest w"), term("m k"))),
         Step("the sum of the weights is 1", {}, zero((1 - m) + m - 1)),
     )
@@ -104,10 +104,10 @@ def theorem_1() -> Proof:
         "the hull consists of the points on or above the convex envelope of the floor and on or below the concave "
         "envelope of the ceiling",
         "A point of the hull is a combination of points of S. Each of these is on or above the floor, so that the "
-        "combination is on or above the same combination of floor points, and the envelope is the smallest of these. "
-        "The ceiling is treated in the same way with the opposite sign. Conversely, the envelopes are attained by "
-        "combinations of points of S, since S is finite, and so both of their points over X are in the hull. If they "
-        "differ, a point over X between them is a combination of them with the weights high - z and z - low.",
+        "combination is on or above that of floor points with the same weights, and so above or on the envelope. The "
+        "ceiling is treated in the same way with the opposite sign. Conversely, as S is finite, each point of an "
+        "envelope is a combination of points of S. So both such points over X are in the hull. If their heights low "
+        "and high differ, a point at z between them is a combination of them with the weights high - z and z - low.",
         combination_above(),
         Step("a point between the envelopes is a combination of their points", {}, between),
         Step("the weights have the sum high - low", {}, zero((high - z) + (z - low) - (high - low))),
@@ -129,14 +129,15 @@ def theorem_2() -> Proof:
     }
     coordinates = tuple(term("inside", coordinate) for coordinate in f)
     return Proof.of(
-        "a plane through an edge of a face p supports if and only if its interior dihedral angle with p is the largest",
+        "a plane on an edge of a face p is supporting if and only if its interior dihedral angle to p is largest",
         "Project along the edge, so that p becomes the ray f and all points are on one side of it. The interior "
-        "dihedral angle of the plane through u is the angle from f to u, and w is inside of that plane if w turns to "
-        "u in the same sense. The two conditions differ by the factor f f, and so the largest angle has all points "
-        "inside, and conversely. The theorem compares only planes whose outward normal points down, those through "
-        "points on the far side of the edge, as seen from above. If p is not upright, points on the side of p have no "
-        "larger angles than those on the far side. If p is upright, no point is on its side. The outward normals make "
-        "the supplement of the angle, so that its smallest value, and not its largest, belongs to the next face.",
+        "dihedral angle of the plane through a point u is the angle from f to u. A point w is inside of that plane if "
+        "the turn from w to u has the same sense as from f to u. This is the condition for a smaller angle of w, "
+        "multiplied by f f > 0, so that the plane of the largest angle has all points inside, and conversely. The "
+        "theorem compares only planes whose outward normals point down, those through points on the far side of the "
+        "edge, as seen from above. If p is not upright, points on the side of p have no larger angles than those on "
+        "the far side. If p is upright, no point is on its side. The outward normals make the supplement of the "
+        "angle, whose smallest value, and not its largest, belongs to the next face.",
         Step("a point with a smaller angle than the plane is inside", smaller, inside, (term("angles"),), ("p",)),
         Step("a point inside has a smaller angle", {"inside": inside}, not_negative(cotangents), coordinates),
         Step("a far point has the larger angle", sides, inside, (term("w far"), term("u near")), ("upright",)),
@@ -149,12 +150,11 @@ def third_corner() -> Proof:
     at_corner, at_point = variables("L_v L_w")
     corner, same_side = positive(at_corner), not_negative(at_corner * at_point)
     return Proof.of(
-        "a plane through an edge of a face p supports if and only if no point is on the side opposite to the third "
-        "corner of p",
+        "a plane on an edge of a face p is supporting if and only if no point is opposite to the third corner of p",
         "Choose the sign of the plane's equation L so that L is not negative at the third corner v. A point w is on "
-        "the side opposite to v if and only if the product of both values is negative. If L is positive at v, this is "
-        "so if and only if L is negative at w, and the plane supports if and only if L is negative at no point. If L "
-        "is 0 at v, the plane is that of p, which supports, and no point is opposite to v.",
+        "the side opposite to v if and only if L has values at v and w whose product is negative. If L is positive at "
+        "v, L is then negative at w, and the plane is supporting if and only if L is negative at no point. If L is 0 "
+        "at v, the plane is that of p, which is supporting, and no point is opposite to v.",
         Step("not negative", {"v": corner, "w": same_side}, not_negative(at_point), (term("w"),), ("v",)),
         Step("not opposite", {"v": corner, "w": not_negative(at_point)}, same_side, (term("v w"),)),
     )
@@ -164,11 +164,11 @@ def third_corner() -> Proof:
 def extreme_point_of_plane() -> Proof:
     return Proof.of(
         "each supporting plane of the surface contains an extreme point of the surface",
-        "A point of the surface is a least combination of points of the floor. None of them is above the surface, "
-        "because the point of the surface below it would give a smaller combination. So every point of the surface is "
-        "a combination of points of V, the points of the floor on the surface. On a supporting plane a linear function "
-        "has its largest value on the surface, and so the plane contains points of V. By lemma LZ one of them is no "
-        "combination of other points of V. So it is not between two points of the surface.",
+        "A point of the surface is the lowest combination of floor points over its x and y. None of these is above "
+        "the surface, because the point of the surface below it would give a lower combination. So every point of the "
+        "surface is a combination of points of V, the set of floor points on the surface. On a supporting plane a "
+        "linear function has its largest value on the surface, and so the plane contains points of V. By lemma LZ one "
+        "of them is no combination of other points of V. So it is not between two points of the surface.",
         *lemma_lz().steps,
     )
 
@@ -198,4 +198,4 @@ def number_of_pairs() -> Proof:
 @claim("yau-srihari.61")
 def angle_of_theorem_2() -> Check:
     as_printed = algorithm_as_printed("angle")
-    return theorem_2().check().misprinted(not as_printed.holds, "psi as the interior dihedral angle of p and q")
+    return theorem_2().check().misprinted(not as_printed.holds, "a theorem about the interior dihedral angle at p")

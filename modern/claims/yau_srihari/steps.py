@@ -25,7 +25,7 @@ def minimum_not_unique() -> Check:
     for is_convex, end, other in cases:
         both: list[Point] = [(0, 0, 0), end]
         outcomes += [not is_convex(array_of(both)), *(is_convex(array_of([*both, p])) for p in ((1, 0, 0), other))]
-    message = "by 3.2.2 and the test of 3.2.3, some two voxels are not convex, but either of two others makes them so"
+    message = "by 3.2.2 and the test of 3.2.3, two voxels are not convex, but become so with either of two others"
     return exhibited(all(outcomes), message)
 
 
@@ -34,7 +34,7 @@ def simple_with_a_tunnel() -> Check:
     solid = counterexample_points("tunnel.csv")
     # The vertices, edges, sides and voxels of the solid by their topological coordinates.
     euler = sum((-1) ** sum(c % 2 for c in cell) for cell in moved(solid, (0, 1, 2), 2))
-    message = f"the solid is simple, but its Euler number is {euler}, and a ball has 1"
+    message = f"the solid is simple, but has the Euler number {euler}; solids without holes have 1"
     return refuted(is_simple(array_of(solid)) and euler == 0, message)
 
 
@@ -51,9 +51,9 @@ def queued_edges_reversed(cases: int = 3) -> Check:
                 same += (p, q) in entries
                 reverse += (q, p) in entries
                 neither += (p, q) not in entries and (q, p) not in entries
-    message = f"{reverse} edges that are found a second time are removed"
+    message = f"{reverse} edges that are found a second time are removed from the queue"
     check = searched(SOLIDS, cases, [reverse > 0, not same, not neither], message)
-    return check.unless(not same, "a comparison of directions, as each edge is found again in reverse")
+    return check.unless(not same, "a comparison that distinguishes directions: each edge is found again in reverse")
 
 
 @claim("yau-srihari.51", full=400, of_ceiling=False)
@@ -62,7 +62,7 @@ def envelope_algorithm(of_ceiling: bool, cases: int = 2) -> Check:
     needed = [name for name in NAMES if not of_ceiling or name != "truncation"]
     wrong = all(_is_wrong(name, of_ceiling) == (name in needed) for name in NAMES)
     directed = queued_edges_reversed().evidence.violation
-    case = f"{len(needed)} steps as printed, each of which alone gives a wrong envelope, and by {directed}"
+    case = f"{len(needed)} steps as printed, each of which gives a wrong envelope, and by {directed}"
     return envelopes_against_judge(cases).unless(wrong and directed, case)
 
 
@@ -95,7 +95,7 @@ def extreme_in_row_and_column(cases: int = 6) -> Check:
         hull = exact_hull([*floor_, *((x, y, z + 9) for x, y, z in floor_)])
         vertices = {floor_[k][:2] for k in hull.vertices if k < len(floor_)}
         checks.append(vertices <= extreme_in_both <= after_both == {*heights(reduced_tree(tree))})
-    return searched(FLOORS, cases, checks, "all extreme points are extreme in their row and column, and remain in A")
+    return searched(FLOORS, cases, checks, "extreme points are extreme in their row and column, and remain in A")
 
 
 def _extreme(place: Place, axis: int, heights_: Mapping[Place, int]) -> bool:
@@ -128,9 +128,9 @@ def angle_counts(cases: int = 3) -> Check:
     counts = [_angles(octree_hull(array)) for array in (*balls, *map(array_of, SOLIDS.cases(cases)))]
     (whole_of_4, _, _, with_bounds_of_4), (whole, preprocessed, by_search, with_bounds), *_ = counts
     outcomes = [by_search < preprocessed < whole, with_bounds < whole, *(c[2] <= c[1] <= c[0] for c in counts)]
-    message = f"a ball of diameter 8 has {whole} angles of points, {preprocessed} after preprocessing, {by_search} by "
-    check = searched(SOLIDS, cases, outcomes, f"{message}search, and {with_bounds} with two bounds for each square")
-    case = f"the bounds in a ball of diameter 4: with them {with_bounds_of_4} angles instead of {whole_of_4}"
+    message = f"a ball of diameter 8 needs {whole} angles of points, {preprocessed} if preprocessed, {by_search} by "
+    check = searched(SOLIDS, cases, outcomes, f"{message}search too, and {with_bounds} with the bounds of squares too")
+    case = f"the bounds: with them, a ball of diameter 4 needs {with_bounds_of_4} angles instead of {whole_of_4}"
     return check.unless(with_bounds_of_4 > whole_of_4, case)
 
 
