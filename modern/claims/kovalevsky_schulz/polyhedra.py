@@ -103,7 +103,7 @@ def points_that_see_no_face(cases: int = 1) -> Check:
         inside = point in points or len(points) not in exact_hull([*points, point]).vertices
         outcomes.append(unseen == inside)
         held += inside
-    message = f"this is true for {len(outcomes)} points with coordinates 1 and 4; the hull contains {held} of them"
+    message = f"the statement holds for {len(outcomes)} points with coordinates 1 and 4, {held} of them in the hull"
     return searched(SETS[3], cases, [*outcomes, held], message)
 
 

@@ -75,7 +75,7 @@ def lemma_ch() -> Proof:
         "If a point of the set V is not in the polyhedron K, an inequality of K cuts it off. By lemma LZ the part cut "
         "off contains a local corner, because one of its points is no combination of others. But K contains all local "
         "corners, and so V. Let a convex polyhedron K' contain V and have its vertices in K. It consists of the "
-        "combinations of these (Minkowski). As the vertices of K are in V, hence in K', K is in K'. So is K' in K.",
+        "combinations of these (Minkowski). As the vertices of K are in V, hence in K', K is in K'. Also K' is in K.",
         largest_value(),
         *combination_satisfies(),
     )

@@ -128,8 +128,8 @@ def angle_counts(cases: int = 3) -> Check:
     counts = [_angles(octree_hull(array)) for array in (*balls, *map(array_of, SOLIDS.cases(cases)))]
     (whole_of_4, _, _, with_bounds_of_4), (whole, preprocessed, by_search, with_bounds), *_ = counts
     outcomes = [by_search < preprocessed < whole, with_bounds < whole, *(c[2] <= c[1] <= c[0] for c in counts)]
-    message = f"a ball of diameter 8 needs {whole} angles of points, {preprocessed} if preprocessed, {by_search} by "
-    check = searched(SOLIDS, cases, outcomes, f"{message}search too, and {with_bounds} with the bounds of squares too")
+    message = f"ball of diameter 8: {whole} angles of points, {preprocessed} after preprocessing, {by_search} with the "
+    check = searched(SOLIDS, cases, outcomes, f"{message}search too, {with_bounds} if its bounds are counted")
     case = f"the bounds: with them, a ball of diameter 4 needs {with_bounds_of_4} angles instead of {whole_of_4}"
     return check.unless(with_bounds_of_4 > whole_of_4, case)
 
