@@ -128,11 +128,16 @@
     picture.replaceChildren();
     mark("title", {}, "The points, the true hull and the hull of the programs of 1963");
     const same = answer?.points?.length === points.length ? answer : null;
-    const loop = (/** @type {number[]} */ face) => face.map((n) => at2[n].map((x) => x.toFixed(2)).join(",")).join(" ");
-    if (same) {
-      for (const face of same.true.faces) mark("polygon", { points: loop(face), class: "parting-true" });
-      for (const face of same.found.faces) mark("polygon", { points: loop(face), class: "parting-found" });
-    }
+    // Each edge is drawn once: the dashes of two faces would fill each other's gaps.
+    /** @param {number[][]} faces @returns {number[][]} */
+    const edgesOf = (faces) => {
+      const pairs = faces.flatMap((face) => face.map((n, k) => [n, face[(k + 1) % face.length]].sort((a, b) => a - b)));
+      return [...new Map(pairs.map((pair) => [pair.join(), pair])).values()];
+    };
+    const ends = (/** @type {number[][]} */ edges) => edges.map(([a, b]) => [at2[a], at2[b]]);
+    const [trueEdges, foundEdges] = same ? [same.true, same.found].map((hull) => ends(edgesOf(hull.faces))) : [[], []];
+    for (const [edges, kind] of /** @type {[number[][][], string][]} */ ([[trueEdges, "true"], [foundEdges, "found"]]))
+      for (const [[x1, y1], [x2, y2]] of edges) mark("line", { x1, y1, x2, y2, class: `parting-${kind}` });
     /** @type {[number, number, number][]} The place and the size of each dot with its ring or cross. */
     const dots = [];
     at2.forEach(([x, y], n) => {
@@ -148,8 +153,20 @@
       dots.push([x, y, isMissed || isExtra ? 7 : 3]);
     });
     if (!same) return;
-    const edges = [...same.true.faces, ...same.found.faces].flatMap((face) => face.map((n, k) => [at2[n], at2[face[(k + 1) % face.length]]]));
-    for (const [n, [x, y]] of labels(dots, edges).entries()) mark("text", { x, y }, String(n + 1));
+    for (const [n, [x, y]] of labels(dots, [...trueEdges, ...foundEdges]).entries()) mark("text", { x, y }, String(n + 1));
+  }
+
+  /** A paragraph in which the file of the faults is a link to their page. @param {string} text */
+  function linked(text) {
+    const paragraph = document.createElement("p");
+    const [before, after] = text.split("fortran_src/KNOWN-FAULTS.md");
+    paragraph.append(before);
+    if (after !== undefined) {
+      const fault = /fault (\d+) in $/.exec(before);
+      const href = `known-faults.html${fault ? `#fault-${fault[1]}` : ""}`;
+      paragraph.append(Object.assign(document.createElement("a"), { href, textContent: "Faults of the originals" }), after);
+    }
+    return paragraph;
   }
 
   function tell() {
@@ -159,13 +176,13 @@
     const lines = (/** @type {string} */ title, /** @type {string[]} */ texts) => {
       if (!texts.length) return;
       box.append(Object.assign(document.createElement("h2"), { textContent: title }));
-      for (const text of texts) box.append(Object.assign(document.createElement("p"), { textContent: text }));
+      for (const text of texts) box.append(linked(text));
     };
     if (answer.refused) return lines("Not run", [answer.refused]);
     lines("The programs of 1963", answer.says);
     lines("Why there is no hull", answer.reason);
     lines("The true hull", [answer.true.text]);
-    lines("Eight digits and exact arithmetic", [answer.part]);
+    lines("Eight digits and exact arithmetic", [answer.part, "Both arithmetics begin with these points; exact arithmetic also keeps all digits on the cards between the programs."]);
   }
 
   async function connect() {

@@ -41,7 +41,7 @@
     input.min = "0";
     input.max = String(rows.length - 1);
     input.value = "60";
-    label.append("x of the first point ", input);
+    label.append("x of the first point (move it to the right) ", input);
     function show() {
       var row = rows[Number(input.value)], values = row.slice(3), zero = values.every(function (/** @type {string} */ value) { return value === "0"; });
       input.setAttribute("aria-valuetext", row[0]);

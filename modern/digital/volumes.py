@@ -104,7 +104,8 @@ def read_scan(path: str, stated: Stated | None = None) -> Scan:
     ball_name = _BALL.fullmatch(path)
     if ball_name:
         if stated.shape is not None or stated.dtype is not None:
-            raise VolumeError(f"{path}: --shape and --dtype are for raw data and cannot be used with a generated ball (ball:N or half-ball:N)")
+            what = "a generated ball (ball:N or half-ball:N)"
+            raise VolumeError(f"{path}: --shape and --dtype are for raw data and cannot be used with {what}")
         make, default = (half_ball, VERTEX) if ball_name[1] else (ball, VOXEL)
         return _with_position(_scan(make(int(ball_name[2]), ball_name[3] or default)), stated)
     if re.match(r"(half-)?ball:", path) and not os.path.exists(path):

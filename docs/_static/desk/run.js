@@ -241,7 +241,7 @@ const deskRun = (() => {
     deskShow.compare(answer, desk.dataset.state === "ended");
     if (!statement) return say(`${lines[0][0].toUpperCase()}${lines[0].slice(1)}. ${says ?? ""}`);
     await jump(statement);
-    say(`The first decision that is different in exact arithmetic: ${lines.join("; ")}. Press START to see its effect on the hull.`);
+    say(`The first decision that is different in exact arithmetic, which begins with the cards of this run: ${lines.join("; ")}. Press START to see its effect on the hull.`);
   }
 
   /** Show the field at an address, with the digits as the 1620 held them. @param {number} digit */

@@ -111,9 +111,8 @@ def typst(folder: Path) -> str:
     """Return the whole book as Typst markup, and write its pictures into ``folder``."""
     texts = documents()
     subjects = _subjects(texts)
-    names = re.compile(
-        rf"\b(?:{'|'.join(sorted((n for n in subjects if '--' not in n), key=len, reverse=True))})\b", re.IGNORECASE
-    )
+    words = sorted((re.escape(name) for name in subjects if "--" not in name), key=len, reverse=True)
+    names = re.compile(rf"\b(?:{'|'.join(words)})\b", re.IGNORECASE)
 
     def keep(name: str, svg: str) -> str:
         (folder / f"{name}.svg").write_text(parts.fitted(svg), encoding="utf-8")

@@ -195,7 +195,7 @@ QUERIES = {
     "E3": "errors.html#error-E3",
     "P1-039": "program1.html#P1-039",
     "C6-038": "example2.html#C6-038",
-    "game": "console.html",
+    "game": "how-to/machine-page.html#play-tic-tac-toe",
     "licence": "get.html#licences",
     "PDF": "get.html",
     "download": "get.html",

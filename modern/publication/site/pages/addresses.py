@@ -8,10 +8,12 @@ matching pages.
 import csv
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from textwrap import shorten
 
 from emulator.errors import explanations
 from modern.claims.register import DOCUMENTS, judged
 from modern.edition import programs
+from modern.edition.apparatus import Row
 from modern.edition.chapter6_cards import load_chapter
 from modern.publication.building import ROOT
 from modern.publication.examples import homes
@@ -59,7 +61,8 @@ def places() -> Iterator[Place]:
     for document in DOCUMENTS:
         for judgement in judged(document):
             row = judgement.statement
-            yield Place(row.id, f"statements/{document}", row.id, f"{row.verdict}: {row.says}"[:90])
+            description = shorten(f"{row.verdict}: {row.says}", 90, placeholder=" \u2026")
+            yield Place(row.id, f"statements/{document}", row.id, description)
 
 
 def _list(entries: Iterable[Place]) -> str:
@@ -83,12 +86,16 @@ def _errors() -> Iterator[Place]:
 def _rows() -> Iterator[Place]:
     for name in programs.TEXTS:
         for row in programs.text(name).rows:
-            description = f"{row.layer}, {row.kind}, {row.certainty}: {programs.cards_of(row)}"
+            description = f"{_kinds(row)}: {programs.cards_of(row)}"
             yield Place(row.id, page_of(row), row.id, description)
     for row in load_chapter().text.rows:
         number = homes()[row.id][0] if row.id in homes() else None
         page = "examples" if number is None else f"example{number}"
-        yield Place(row.id, page, row.id, f"{row.layer}, {row.kind}, {row.certainty}")
+        yield Place(row.id, page, row.id, _kinds(row))
+
+
+def _kinds(row: Row) -> str:
+    return ", ".join(dict.fromkeys((row.layer, row.kind, row.certainty)))
 
 
 def _names() -> Iterator[Place]:

@@ -41,6 +41,14 @@ SIGNS = {
 }
 
 
+# The conditions of an IF: signs of its expression, or the position of a switch.
+_SIGNS = {"\u2212": "negative", "0": "zero", "+": "positive"}
+_CONDITIONS = {
+    ", ".join(signs): f"if {' or '.join(_SIGNS[sign] for sign in signs)}"
+    for signs in (("\u2212",), ("0",), ("+",), ("\u2212", "0"), ("\u2212", "+"), ("0", "+"))
+}
+
+
 def make(argument: str) -> list[Part]:
     """Return the facing text of a built-in program."""
     name = one_of(argument, programs.NAMES)
@@ -51,11 +59,11 @@ def make(argument: str) -> list[Part]:
     head = element("div", "".join(text("span", title) for title in titles), cls="card-head", aria_hidden="true")
     sheets = sheets_of(chart(flow(programs.program(name))))
     remarks = {block.cards.start: _remark(name, block, sheets) for block in commentary(name).blocks}
-    if listing.everywhere or listing.dropped:
-        parts.append(Part("Rows that concern most cards", "everywhere", html=_everywhere(listing)))
     for page, cards in listing.pages():
         items = "".join(remarks.get(card.number, "") + _card(listing, card, first_cards) for card in cards)
         parts.append(Part(f"Page {page}", f"page-{page}", html=head + element("ol", items, cls="cards")))
+    if listing.everywhere or listing.dropped:
+        parts.append(Part("Rows that concern most cards", "everywhere", html=_everywhere(listing)))
     return [*parts, _names(name), _formats(name)]
 
 
@@ -187,7 +195,8 @@ def _facts(listing: Facing, card: Card) -> str:
 
     def to(number: int, condition: str = "") -> str:
         place = listing.cards[number - 1].place
-        return link(listing.program, place, place) + (f" ({escape(condition)})" if condition else "")
+        words = _CONDITIONS.get(condition, condition)
+        return link(listing.program, place, place) + (f" ({escape(words)})" if words else "")
 
     def come(kind: str) -> str:
         return ", ".join(to(jump.card, jump.taken) for jump in known.to(card.number) if jump.kind == kind)

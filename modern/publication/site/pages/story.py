@@ -10,7 +10,7 @@ from modern.drawing.draw import draw_svg
 from modern.drawing.stages import row, strip
 from modern.publication import essay
 from modern.publication.site.made import Part, one_of
-from modern.publication.site.markup import element, figure, inline, link, preformatted, table, text
+from modern.publication.site.markup import element, figure, inline, link, preformatted, run_link, table, text
 
 EYE = (1, 1, 2)  # the hull of the example is broad from this direction
 XS = range(5, 1000, 5)  # the positions of the slider
@@ -61,6 +61,7 @@ def _cube() -> str:
     run, typed, hull = essay.cube()
     statements = sum(step.result.statements for step in run.steps)
     caption = f"The unit cube. After {statements:,} statements the typewriter of the 1620 has typed:"
-    why = f"Why: {link('known-faults', '', 'known fault 2')}."
+    run_it = run_link("program1", "counterexamples/cube", "Run the cube on the machine", next="1")
+    why = f"Why: {link('known-faults', 'fault-2', 'known fault 2')}. {run_it}."
     drawn = figure(draw_svg(hull, width=360), "cube", caption)
     return drawn + preformatted(typed, "typewriter") + element("p", why, cls="quiet")
