@@ -106,7 +106,7 @@ def identity(difference: Callable[..., int], degrees: Sequence[int], message: st
     a grid with d + 1 values for each variable.
     """
     values = [difference(*point) == 0 for point in product(*(range(-(d // 2), d - d // 2 + 1) for d in degrees))]
-    grid = f"Both sides differ by a polynomial in {len(degrees)} variables that is 0 at more values of each than its degree"
+    grid = f"A polynomial in {len(degrees)} variables is 0 if it is 0 at more values of each variable than its degree"
     return proved(f"{argument} {grid}", values, message)
 
 
