@@ -210,7 +210,7 @@ class Flat(NamedTuple):
     """Object code as flat sequences of integers, the form that both engines execute.
 
     The first four sequences have one entry per instruction: operation, address, index into ``table`` (-1 without a
-    subscript), and second operand.  ``table`` holds v1, c1, o1, rows, v2, c2, o2 and columns of each subscript.
+    subscript), and second operand.  ``table`` holds the eight fields of each :class:`Subscript` in a row.
     ``targets`` holds the branch tables, each preceded by its length.  ``loops`` holds four numbers per loop: variable,
     step, limit, and first instruction.  ``begins`` holds 1 for each counter at which a statement begins, 2 for each at
     a pass of an indexed list, and 0 for others.  ``charges`` holds what each counter adds to the work of the run: 1 if

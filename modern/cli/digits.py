@@ -95,9 +95,8 @@ def _runs(args: argparse.Namespace, studied: Numbers) -> SampledNumbers:
     """Return the stochastic runs that the options request. Raise UsageError if the options are invalid."""
     if isinstance(studied, SampledNumbers):
         if args.runs is not None or args.seed is not None or args.proportional or args.majority:
-            raise UsageError(
-                f"{studied.name} already names the runs; omit --runs, --seed, --proportional and --majority"
-            )
+            known = "already says how many runs there are and how they are seeded"
+            raise UsageError(f"{studied.name} {known}; omit --runs, --seed, --proportional and --majority")
         return studied
     runs, seed = 10 if args.runs is None else args.runs, 1 if args.seed is None else args.seed
     if not 2 <= runs <= MAX_RUNS:

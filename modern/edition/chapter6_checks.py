@@ -98,9 +98,10 @@ def check_layout(chapter: Chapter) -> tuple[str, ...]:
 
 
 def records(text: str, values: int) -> tuple[tuple[tuple[Field, str], ...], ...]:
-    """Return the fields of each card that FORMAT ``text`` punches for ``values`` numbers, each with its printed word.
+    """Return the fields of each card that FORMAT ``text`` punches for ``values`` numbers.
 
-    The word of a numeric field is empty. Raise Refused if the FORMAT does not parse or has too few fields.
+    Each field has the word that it prints, such as VERTICES; the word of a numeric field is empty.
+    Raise Refused if the FORMAT does not parse or has too few fields.
     """
     spec, _ = parse_format(Format(text, tuple(Place(1, column) for column in range(1, len(text) + 1))))
     card_fields: list[list[tuple[Field, str]]] = [[]]

@@ -8,7 +8,8 @@
    plane.  The vertices in a plane are exactly those of its facet.  A point that is not a vertex lies in some plane if
    and only if its class is boundary.
 3. Each vertex lies in enough facet planes to be their only common point.  In space, three of these planes have
-   independent normals.  In a plane, each vertex lies in two of them.  Therefore it does not lie between two other
+   independent normals.  If all points lie in one plane, each vertex lies in two
+   facet planes.  Therefore a vertex does not lie between two other
    points.
 4. The facets form a closed surface.  In space, every polygon turns left at every vertex, seen from outside, and goes
    around once.  Every directed edge of the polygons occurs once, and its reverse also occurs once.  The numbers of
@@ -127,7 +128,11 @@ def _check_planes(hull: ExactHull) -> None:
         polygon = facet.polygon
         require(len(set(polygon)) == len(polygon), "facet {}: a vertex occurs twice", number)
         require(vertices.issuperset(polygon), "facet {}: a point of the polygon is not a vertex", number)
-        require(bool(polygon) and polygon[0] == min(polygon), "facet {}: the smallest vertex is not first", number)
+        require(
+            bool(polygon) and polygon[0] == min(polygon),
+            "facet {}: the vertex with the smallest index is not the first of its polygon",
+            number,
+        )
         for index in polygon:
             x, y, z = hull.scaled[index]
             if a * x + b * y + c * z + d:

@@ -79,7 +79,7 @@ def polygons(hull: ExactHull, facets: Facets) -> Polygons:
     if lone.size:
         raise CertificateError(f"point {lone[0]} is called a vertex, but is a vertex of no facet")
     for number in np.flatnonzero(np.minimum.reduceat(corner, first) != corner[first]):
-        raise CertificateError(f"facet {number}: the smallest vertex is not first")
+        raise CertificateError(f"facet {number}: the vertex with the smallest index is not the first of its polygon")
     size = len(hull.scaled)
     # Pairs of indices become single integers, so that sorting shows repetitions.
     pairs = np.sort(facet * size + corner)

@@ -71,7 +71,8 @@ def held(session: Session, name: str) -> Any:
 class Construction:
     """A run of the programs, with the steps of ``_STEPS`` in order, each with the number NETC, and the tests of INSID.
 
-    A test of INSID is a pair: whether the heading of the inside points is punched, and whether INSID is 2.
+    INSID is the variable that program 3 sets to 2 when it has punched the heading INSIDE POINTS. A test of INSID is a
+    pair: whether this heading has been punched before the test, and whether INSID is 2.
     """
 
     run: HullRun
