@@ -172,9 +172,10 @@ def _is_convex_plane(table: _Table, crossing: Intersection) -> bool:
 
 
 def _follow(table: _Table, crossing: Intersection) -> list[int] | None:
-    """Return the entries of the loop that begins with the two edges of ``crossing``, or None if it does not close (steps 9 and 10).
+    """Return the entries of the loop that begins with the two edges of ``crossing`` (steps 9 and 10).
 
-    The search gives up if the loop does not close within as many lines as the hull has edges, as the appendix advises.
+    Return None if the loop does not close. As the appendix advises, the search gives up if the loop does not close
+    within as many lines as the hull has edges.
     """
     normal, origin = _plane(table.points, crossing)
     entries = [*crossing.entries]
