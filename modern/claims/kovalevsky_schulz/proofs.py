@@ -89,13 +89,13 @@ def lemma_ch() -> Proof:
 @proves("appel-will.41", "appel-will.133", conclusion="a point between two others is no vertex of the hull")
 def no_combination() -> Proof:
     return Proof.of(
-        "a point of a convex polyhedron is a vertex if and only if it is no combination of other points of it",
+        "a point of a set is a vertex of its hull if and only if it is no combination of other points of the set",
         "A vertex is the only point with the largest value of some linear function, so that a combination of other "
-        "points has a smaller value. So no point between two others is a vertex, and no vertex of a polyhedron's hull "
-        "lies inside the polyhedron, a face or an edge. A polyhedron all of whose vertices are other points of the "
-        "given one does not contain the vertex. By Minkowski's theorem every point is a combination of vertices. So a "
-        "convex polyhedron that contains all vertices contains the whole polyhedron, and a smaller one does not "
-        "contain all vertices.",
+        "points has a smaller value. So no point between two others is a vertex, all vertices of the hull of a set are "
+        "in the set, and no vertex of a polyhedron's hull lies inside the polyhedron, a face or an edge. A polyhedron "
+        "all of whose vertices are other points of the given one does not contain the vertex. By Minkowski's theorem "
+        "every point is a combination of vertices. So a convex polyhedron that contains all vertices contains the "
+        "whole polyhedron, and a smaller one does not contain all vertices.",
         largest_value(),
         *combination_satisfies(),
     )

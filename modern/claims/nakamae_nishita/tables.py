@@ -75,11 +75,7 @@ def inside(p: Place, v: tuple[Place, ...]) -> bool:
 
 
 def overlap(v: tuple[Place, ...], w: tuple[Place, ...]) -> bool:
-    """Return True if the hulls of two sets have common inner points.
-
-    The hulls have common inner points if 0 is inside the hull of all differences between a point of one set and a point
-    of the other.
-    """
+    """Return True if the hulls of two sets have common inner points: 0 is inside the hull of all differences q - p."""
     differences = sorted({(q[0] - p[0], q[1] - p[1], 0) for p in v for q in w})
     ring = [differences[k][:2] for k in exact_hull(differences).polygon]
     return all(area((0, 0), a, b) > 0 for a, b in sides(ring))
@@ -288,15 +284,22 @@ def intersection_counts(cases: int = CASES) -> Check:
     return check.unless(along and over_two, case)
 
 
+@cache
+def inner_edges(w: tuple[Place, ...]) -> list[tuple[Place, Place]]:
+    lines, grid = lines_of(w), product(range(-2, 10), repeat=2)
+    ends = [*w, *((x, y) for x, y in grid if all(value(line, (x, y, 1)) > 0 for line in lines))]
+    return [(p, q) for p, q in combinations(ends, 2) if all(value(x, (p[0] + q[0], p[1] + q[1], 2)) for x in lines)]
+
+
 @claim("nakamae-nishita.64", full=25)
 def segments_within(cases: int = CASES) -> Check:
     checks, partly_inside = [], 0
     for v, w in pairs(cases):
-        for (a, b), (p, q) in product(sides(v), combinations(range(len(w)), 2)):
-            if 1 < q - p < len(w) - 1 and crosses(a, b, w[p], w[q]):
+        for a, b in sides(v):
+            if crossings := sum(crosses(a, b, p, q) for p, q in inner_edges(w)):
                 values_at_w = values(lines_of(w), [(*a, 0, 1), (*b, 0, 1)])
-                checks.append(values_at_w is not None and clipped(values_at_w, 0, 1) != CLEAR)
-                partly_inside += not (inside(a, w) and inside(b, w))
-    message = f"in {len(checks)} crossings of a side of V with a diagonal of V', a part of the side is inside V'"
-    check = searched(POLYGONS, 2 * cases, checks, message)
+                checks += [values_at_w is not None and clipped(values_at_w, 0, 1) != CLEAR] * crossings
+                partly_inside += crossings * (not (inside(a, w) and inside(b, w)))
+    message = f"in {len(checks)} crossings of a side of V with a line between corners or inner points of V', a part of "
+    check = searched(POLYGONS, 2 * cases, checks, f"{message}the side is inside V'")
     return check.unless(partly_inside, f"{partly_inside} crossings in which the side of V is not wholly inside V'")
