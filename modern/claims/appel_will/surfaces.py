@@ -173,8 +173,7 @@ def minimum_data() -> Check:
     of_sets = {pair for pair in shared if len(pair) == 2} == {*_surfaces_at_lines(figure)}
     message = f"a twisted prism and its hull have the same {len(judge.vertices)} points but different lines"
     check = exhibited(differ and len(judge.vertices) == len(solid.points), message)
-    case = "a cube, whose points are enough, and the polyhedron of Fig. 4, whose lines follow from the points of its "
-    case += "surfaces in any order"
+    case = "a cube known to be convex, whose points are enough, and Fig. 4, whose map needs no order of the points"
     return check.unless(of_sets and (len(cube.vertices), len(cube.facets)) == (8, 6), case)
 
 

@@ -83,7 +83,7 @@ def lemma_ch() -> Proof:
 
 @proves("kovalevsky-schulz.14", "kovalevsky-schulz.16", "kovalevsky-schulz.17")
 @proves("kovalevsky-schulz.121", conclusion="a smaller convex polyhedron does not contain all vertices")
-@proves("kovalevsky-schulz.167", conclusion="a vertex is no combination of other points of the polyhedron")
+@proves("kovalevsky-schulz.167", conclusion="a vertex of a convex polyhedron is no combination of its other points")
 @proves("appel-will.16", conclusion="a combination of points that are already listed is not a new vertex")
 @proves("appel-will.19", conclusion="all vertices of the hull are vertices of the polyhedron")
 @proves("appel-will.41", "appel-will.133", conclusion="a point between two others is no vertex of the hull")

@@ -41,7 +41,7 @@ from modern.geometry.hull import Stage
 @claim("thesis.224", "thesis.89", kind="replaced_plane", full=300)
 @claim("thesis.218", kind="renumbering", full=300)
 @claim("thesis.77", kind="largest_of_all", full=300)
-@claim("thesis.206", "thesis.228", "thesis.99", kind="equations", full=300)
+@claim("thesis.206", "thesis.228", "thesis.99", "thesis.189", kind="equations", full=300)
 @claim("thesis.221", "thesis.229", kind="vertices_used", full=300)
 @claim("thesis.222", "thesis.232", kind="vertex_when_added", full=300)
 @claim("thesis.92", "thesis.266", kind="convexity", full=300)
@@ -264,7 +264,7 @@ def _convexity(sampled: SampledSet) -> Iterator[bool]:
 # The function that examines the stages of a set for each property, and the property as a sentence.
 _PROPERTIES = {
     "nested": (_nested, "each hull contains the hull before it and a point outside that hull"),
-    "equations": (_equations, "the equations of each H_j are the facets of the exact hull of its points"),
+    "equations": (_equations, "the equations of each H_j, negative at the inside point C, are those of the exact hull"),
     "last_hull": (_last_hull, "all equations of H_j support the set exactly if H_j is the last hull, that of the set"),
     "struck_inside": (_struck_inside, "each H_j eliminates exactly the remaining points that are inside it"),
     "contained_points": (_contained_points, "a point in H_j that is no vertex of H_j is no vertex of the last hull"),

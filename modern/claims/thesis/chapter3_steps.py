@@ -103,7 +103,7 @@ def classification_by_signs(cases: int = CASES) -> Check:
     return searched(BOTH, 2 * cases, [*checks, some_boundary], message)
 
 
-@claim("thesis.61", "thesis.63", "thesis.64", "thesis.88", "thesis.189", full=300)
+@claim("thesis.61", "thesis.63", "thesis.64", "thesis.88", full=300)
 def mean_of_first_hull(cases: int = CASES) -> Check:
     right, negative = [], []
     for sampled in flat_and_spatial_sets(cases):

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, partial
-from itertools import combinations, pairwise
+from itertools import pairwise
 from typing import Any
 
 from emulator.language.cards import Deck, deck_from_lines, deck_from_text
@@ -18,8 +18,9 @@ from emulator.objectdeck.extent import code_positions
 from modern.claims.evidence import Check, claim, exhibited, refuted, searched, slip
 from modern.claims.hulls import convex_hull, exact_hull
 from modern.claims.register import statements_of
-from modern.claims.sampled_sets import CASES, SETS, Point, counterexample, plane_through, plane_value, sampled_sets
+from modern.claims.sampled_sets import CASES, SETS, Point, counterexample, plane_value, sampled_sets
 from modern.claims.thesis.chapter3_steps import between_by_distances
+from modern.claims.thesis.identities import constant_term_at_c
 from modern.comparison.outcome import Vector, from_cards
 from modern.edition import programs
 from modern.formats.deck import coordinate_field, data_deck, exact_points
@@ -220,20 +221,9 @@ def orientation_by_c(cases: int = CASES) -> Check:
     return check.unless(not fault.holds, f"a plane through C that is eliminated later: {fault.message}")
 
 
-@claim("thesis.190", full=300)
-def orientation_by_constant_term(cases: int = CASES) -> Check:
-    checks = []
-    for sampled in sampled_sets(3, cases):
-        first = [sampled.points[k] for k in sampled.hull.history[0].added]
-        moved = [[len(first) * x - sum(axis) for x, *axis in zip(p, *first, strict=True)] for p in sampled.points]
-        # Compare the value at C, times the number of points of which C is the mean, with the translated constant term.
-        for defining in {*combinations(range(5), 3), *(d for stage in sampled.stages() for d in stage.defining)}:
-            plane = plane_through(*(sampled.points[k] for k in defining))
-            there = sum(plane_value(plane, point) for point in first)
-            constant = plane_through(*((x, y, z) for x, y, z in (moved[k] for k in defining)))[3]
-            checks.append((constant > 0, constant < 0) == (there > 0, there < 0))
-    check = searched(SETS[3], cases, checks, f"{len(checks)} constant terms have the sign of the value at C")
-    return check.unless(not plane_through_c().holds, "a plane through C, for which both are 0")
+@claim("thesis.190")
+def orientation_by_constant_term() -> Check:
+    return constant_term_at_c().check().unless(not plane_through_c().holds, "a plane through C, for which both are 0")
 
 
 @claim("thesis.160", part="values")

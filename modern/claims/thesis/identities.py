@@ -116,8 +116,7 @@ def coordinate_planes() -> Proof:
 
 def perpendicular_projection() -> Proof:
     *normal, _ = _plane(P, Q, X)
-    pairs = (1, 2), (2, 0), (0, 1)
-    images = [bracket(*((p[i], p[j]) for p in (P, Q, X))) for i, j in pairs]
+    images = [bracket(*((p[i], p[j]) for p in (P, Q, X))) for i, j in ((1, 2), (2, 0), (0, 1))]
     return Proof(
         "a plane is projected to a line if and only if its coefficient for the omitted coordinate is 0",
         "The coefficient is twice the area of the projected triangle of three points. Planes are perpendicular if the "
@@ -136,13 +135,25 @@ def projection_along_axis() -> Proof:
     )
 
 
+def constant_term_at_c() -> Proof:
+    c, values = point("c", 3), []
+    for r in (X, (P[0], P[1], P[2] + 1)):
+        *normal, d = _plane(P, Q, r)
+        *moved, constant = _plane(*(minus(p, c) for p in (P, Q, r)))
+        values += [*minus(tuple(normal), tuple(moved)), dot(normal, c) + d - constant]
+    return Proof(
+        "if the origin is moved to the point C, the constant term becomes the value at C, and all else is unchanged",
+        "A line in the plane of x and y has the equation of the upright plane through the line and a point above it.",
+        _all_zero("both are equal", values),
+    )
+
+
 def coordinates_of_figure_3() -> Proof:
     third, way = point("r", 2), minus(point("q", 2), point("p", 2))
     moved = {name: (turn(way, u), dot(way, u)) for name in "pqrx" for u in [minus(point(name, 2), third)]}
     image, original = moved["x"], minus(point("x", 2), third)
     return Proof.of(
-        "in coordinates that keep all distances, P_3 is the origin, P_1 and P_2 have the same x, and y_1 is less than "
-        "y_2",
+        "in coordinates that keep all distances, P_3 is the origin, P_1 and P_2 have the same x, and y_1 < y_2",
         "The new coordinates of a point x, times the distance of P_1 and P_2, are products of the vector from P_1 "
         "to P_2 with that from P_3 to x. They keep distances, because the sum of the squares of both products is the "
         "product of the squares of both vectors. If P_1 has a negative x, -x takes the place of x. If P_1, P_2 and P_3 "
@@ -169,7 +180,7 @@ def other_letters() -> Proof:
     with_z = [_c_0(*((p[i], p[j]) for p in (P, Q, X))) for i, j in ((0, 2), (2, 1))]
     return Proof(
         "the formulas for the other coordinate planes give -B and -A",
-        "The signs do not matter because the coefficients must be 0.",
+        "In the proof, only the formula of C_0 changes. The signs do not matter because the coefficients must be 0.",
         _all_zero("the sum is 0", [with_z[0] + b, with_z[1] + a]),
     )
 
