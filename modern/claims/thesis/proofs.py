@@ -288,7 +288,7 @@ def theorem_4_5() -> Proof:
 @claim("thesis.125", "thesis.197", "thesis.236", proof=theorem_4_4)
 @claim("thesis.237", proof=theorem_4_4, conclusion="if C_0 is not 0, points with equal x and y have equal z")
 @claim("thesis.74", "thesis.131", "thesis.257", "thesis.258", proof=theorem_4_5)
-@claim("thesis.132", proof=theorem_4_5, conclusion="convex combinations of the vertices satisfy all lines")
+@claim("thesis.132", proof=theorem_4_5, conclusion="convex combinations of the vertices satisfy all inequalities")
 @claim("thesis.133", proof=theorem_4_5, conclusion="a triangle consists of the convex combinations of its corners")
 @claim("thesis.238", proof=theorem_4_5, conclusion="the vertices of H_j satisfy all lines of H_j")
 @claim("thesis.240", "thesis.241", proof=theorem_4_5, conclusion="H_k+1 consists of H_k and the triangle a b p")
