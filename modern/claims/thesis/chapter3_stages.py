@@ -45,8 +45,8 @@ from modern.geometry.hull import Stage
 @claim("thesis.221", "thesis.229", kind="vertices_used", full=300)
 @claim("thesis.222", "thesis.232", kind="vertex_when_added", full=300)
 @claim("thesis.92", "thesis.266", kind="convexity", full=300)
-@claim("thesis.266", kind="added_tetrahedra", full=300)
-@claim("thesis.241", "thesis.240", kind="added_triangle", full=300)
+@claim("thesis.89", "thesis.266", kind="added_tetrahedra", full=300)
+@claim("thesis.89", "thesis.241", "thesis.240", kind="added_triangle", full=300)
 @claim("thesis.278", kind="two_new_lines", full=300)
 def stage_property(kind: str, cases: int = CASES) -> Check:
     """Check one property, a key of ``_PROPERTIES``, of all stages H_1, H_2, ... in the construction of sampled sets."""

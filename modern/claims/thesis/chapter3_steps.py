@@ -156,7 +156,7 @@ def fourth_point_by_largest() -> Check:
     return refuted(wrong, f"{message}the listing finds the hull")
 
 
-@claim("thesis.94", full=300)
+@claim("thesis.89", "thesis.94", full=300)
 def new_planes(cases: int = CASES) -> Check:
     checks = []
     for _, before, after, visible in _visible(cases):
