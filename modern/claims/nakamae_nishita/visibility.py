@@ -81,11 +81,11 @@ def indices(cases: int = 3) -> Check:
     message += "some do both, with the indices 2 and -2"
     # An intersection with the index -1 is alone on its segment.
     check = searched(_CONTOURS, cases, [*checks, ways == {(), (1,), (-1,), (2, -2)}], message)
-    # The diagonal of the square.
-    ends, contour = ((-2, -2, 0, 1), (6, 6, 0, 1)), [(x, y, 0, 1) for x, y in SQUARE]
-    diagonal = values(lines_of(SQUARE), ends)
-    missed = diagonal and as_printed(diagonal, 0, 1, ends, contour) == CLEAR != clipped(diagonal, 0, 1)
-    return check.unless(missed, "a segment through two corners of a square, for which d of formula (3) is never -4")
+    # From the middle of the square through a corner. The ends are on opposite sides of both sides at the corner.
+    leaving = values(lines_of(SQUARE), ends := ((2, 2, 0, 1), (6, 6, 0, 1))) or []
+    missed = as_printed(leaving, 0, 1, ends, [(x, y, 0, 1) for x, y in SQUARE]) == CLEAR != clipped(leaving, 0, 1)
+    case = "a segment that leaves a square at a corner: by d it gets no index, or the index -2 twice instead of -1 once"
+    return check.unless(missed and sum(a * b < 0 for a, b in leaving) == 2, case)
 
 
 _CONTOURS = replace(POLYGONS, name="a square and convex polygons, coordinates -2 to 6; segments between 16 points")

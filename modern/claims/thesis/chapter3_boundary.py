@@ -102,11 +102,11 @@ def planes_at_vertex(cases: int = CASES) -> Check:
 def used_points_in_planes() -> Check:
     points = _USED_POINTS
     hull, judge = convex_hull(points, history=True), exact_hull(points)
-    used = sorted({*added_points(hull)} - {*judge.vertices})
+    used = sorted({*hull.history[0].added} - {*judge.vertices})
     planes = {points[k]: len(_facets_at(points[k], judge)) for k in used}
     passed = {*planes.values()} == {1, 2} and {*hull.vertices} == {*judge.vertices}
     message = ", ".join(f"{n} for {point}" for point, n in planes.items())
-    return exhibited(passed, f"number of planes of the last hull that contain an added point: {message}")
+    return exhibited(passed, f"number of planes of the last hull that contain a vertex of H_1: {message}")
 
 
 @claim("thesis.230", full=400)

@@ -116,7 +116,7 @@ def plane_duplicates_as_printed(cases: int = CASES) -> Check:
                 kept_planes.append(_unsigned(plane))
         checks.append(sorted(kept_planes) == sorted(_unsigned(facet.plane) for facet in exact_hull(points).facets))
         differing += kept_planes != [_unsigned(face.lowest) for face in hull.faces]
-    message = f"{sum(checks)} of {len(checks)} sets keep one equation of each plane, in {differing} not the listing's"
+    message = f"{sum(checks)} of {len(checks)} sets keep one equation per plane, {differing} not that of the listing"
     return searched(LATTICE_SETS[3], cases, [*checks, differing], message)
 
 
