@@ -108,7 +108,7 @@ def digital_hull_by_envelopes(cases: int = 3) -> Check:
 @claim("yau-srihari.70", names="angle", full=400)
 @claim("yau-srihari.120", names="angle triangles", full=400)
 @claim("yau-srihari.68", names="angle bound", full=400)
-@claim("yau-srihari.125", "yau-srihari.106", names="marks", full=400)
+@claim("yau-srihari.125", names="marks", full=400)
 def corrected_step(names: str, cases: int = 2) -> Check:
     as_printed = {name: algorithm_as_printed(name) for name in names.split()}
     case = "; ".join(f"{name}: {step.message}" for name, step in as_printed.items())
