@@ -18,7 +18,7 @@ from emulator.objectdeck.extent import code_positions
 from modern.claims.evidence import Check, claim, exhibited, refuted, searched, slip
 from modern.claims.hulls import convex_hull, exact_hull
 from modern.claims.register import statements_of
-from modern.claims.sampled_sets import CASES, SETS, Point, counterexample, plane_value, sampled_sets
+from modern.claims.sampled_sets import BOTH, CASES, Point, counterexample, flat_and_spatial_sets
 from modern.claims.thesis.chapter3_steps import between_by_distances
 from modern.claims.thesis.identities import constant_term_at_c
 from modern.comparison.outcome import Vector, from_cards
@@ -72,6 +72,7 @@ def held(session: Session, name: str) -> Any:
 class Construction:
     """A run of the programs, with the steps of ``_STEPS`` in order, each with the number NETC, and the tests of INSID.
 
+    ``signs`` has the sign of the value at C of each equation when its sign has been chosen (``_SIGN_CHOSEN``).
     INSID is the variable that program 3 sets to 2 when it has punched the heading INSIDE POINTS. A test of INSID is a
     pair: whether this heading has been punched before the test, and whether INSID is 2.
     """
@@ -79,10 +80,13 @@ class Construction:
     run: HullRun
     steps: list[tuple[str, int]]
     inside: list[tuple[bool, bool]]
+    signs: list[int]
 
 
 # The statements of the listings that eliminate inside points (E), test an equation (C) and add a point (G).
 _STEPS = {"program2.f": {106: "E", 124: "C", 133: "G"}, "program3.f": {103: "E", 116: "C", 125: "G"}}
+# The statement after the choice of an equation's sign, and the names of the equation's number and coefficients.
+_SIGN_CHOSEN = {"program1.f": "206 I XA XB XC XD", "program2.f": "105 J A B C", "program3.f": "135 I A B C D"}
 
 
 @cache
@@ -90,16 +94,24 @@ def construction(points: tuple[Point, ...], load: Load) -> Construction:
     """Run the programs on a set once for all checks of its steps."""
     steps: list[tuple[str, int]] = []
     inside: list[tuple[bool, bool]] = []
+    signs: list[int] = []
 
     def trace(source: str, line: Line, session: Session) -> None:
+        numbers = session.options.numbers
         if line.label in _STEPS.get(source, {}):
             steps.append((_STEPS[source][line.label], int(held(session, "NETC"))))
         # Statement 108 tests INSID before an inside point is punched.
         if source == "program3.f" and line.label == 108:
             is_punched = any(event.text == "INSIDE POINTS" for event in session.devices.events)
             inside.append((is_punched, held(session, "INSID") == 2))
+        label, number, *letters = _SIGN_CHOSEN[source].split()
+        if line.label == int(label):
+            *slopes, value = [held(session, f"{letter}({held(session, number)})") for letter in letters]
+            for k, slope in enumerate(slopes, 1):
+                value = numbers.add(value, numbers.multiply(slope, held(session, f"C{k}")))
+            signs.append(numbers.sign(value))
 
-    return Construction(traced_run(points, trace, load), steps, inside)
+    return Construction(traced_run(points, trace, load), steps, inside, signs)
 
 
 def points_on(deck: Deck) -> list[Vector]:
@@ -209,15 +221,12 @@ def notation() -> Check:
 
 @claim("thesis.93", "thesis.189", full=300)
 def orientation_by_c(cases: int = CASES) -> Check:
-    checks = []
-    for sampled in sampled_sets(3, cases):
-        first = [sampled.points[k] for k in sampled.hull.history[0].added]
-        for stage in sampled.stages():
-            judge = exact_hull([sampled.points[k] for k in stage.vertices])
-            # The sum of the values at the first points has the sign of the value at C, their mean.
-            checks += [sum(plane_value(facet.plane, point) for point in first) < 0 for facet in judge.facets]
+    runs = (construction(sampled.points, programs.program) for sampled in flat_and_spatial_sets(cases))
+    checks = [sign < 0 for run in runs for sign in run.signs]
+    message = f"programs 1 to 3 choose the signs of {len(checks)} equations, and all are then negative at C, also "
+    message += "those that program 3 eliminates immediately afterwards"
     fault = plane_through_c()
-    check = searched(SETS[3], cases, checks, f"{len(checks)} equations of all H_j are negative at the inside point C")
+    check = searched(BOTH, 2 * cases, checks, message)
     return check.unless(not fault.holds, f"a plane through C that is eliminated later: {fault.message}")
 
 

@@ -12,8 +12,9 @@ from modern.digital.solids import VERTEX, ball
 from modern.papers.yau_srihari import OctreeHull, Printed
 from modern.papers.yau_srihari.convexity import is_digitally_convex, is_midpoint_convex, is_simple
 from modern.papers.yau_srihari.envelope import reduced_tree
+from modern.papers.yau_srihari.octree import QUADRANTS
 from modern.papers.yau_srihari.printed import NAMES
-from modern.papers.yau_srihari.quadtree import Leaf, Place, heights, no_columns, written
+from modern.papers.yau_srihari.quadtree import Leaf, Place, Quadtree, heights, line, no_columns, sons_of, written
 from modern.papers.yau_srihari.search import Bounds, Search
 
 
@@ -98,11 +99,31 @@ def extreme_in_row_and_column(cases: int = 6) -> Check:
     return searched(FLOORS, cases, checks, "extreme points are extreme in their row and column, and remain in A")
 
 
+@claim("yau-srihari.80", full=1_000)
+def leaves_in_sorted_order(cases: int = 6) -> Check:
+    checks = []
+    for floor_ in FLOORS.cases(cases):
+        tree = written(no_columns(4), {(x, y): Leaf(z) for x, y, z in floor_})
+        for axis, at in product((0, 1), range(4)):
+            of_line = sorted((p[1 - axis], p[2]) for p in floor_ if p[axis] == at)
+            checks.append(_leaves(tree, axis, at) == of_line == [*line(tree, axis, at)])
+    message = f"the leaves of {len(checks)} binary subtrees, visited son by son, are sorted along their row or column"
+    return searched(FLOORS, cases, checks, message)
+
+
+def _leaves(tree: Quadtree, axis: int, at: int, first: int = 0) -> list[tuple[int, int]]:
+    """Visit the sons of a node that meet a row or column, in the order of their numbers; return the heights found."""
+    if not (half := tree.side // 2):
+        return [(first, height) for height in heights(tree).values()]
+    sons = [son for son, place in zip(sons_of(tree), QUADRANTS, strict=True) if place[axis] == at // half]
+    return [leaf for k, son in enumerate(sons) for leaf in _leaves(son, axis, at % half, first + k * half)]
+
+
 def _extreme(place: Place, axis: int, heights_: Mapping[Place, int]) -> bool:
     """Return True if a point is a vertex of the lower hull of the points in its row or column."""
     at, z = place[axis], heights_[place]
-    line = [(p[axis], h) for p, h in heights_.items() if p[1 - axis] == place[1 - axis]]
-    around = product([entry for entry in line if entry[0] < at], [entry for entry in line if entry[0] > at])
+    on_line = [(p[axis], h) for p, h in heights_.items() if p[1 - axis] == place[1 - axis]]
+    around = product([entry for entry in on_line if entry[0] < at], [entry for entry in on_line if entry[0] > at])
     return all((z - h) * (b - a) < (k - h) * (at - a) for (a, h), (b, k) in around)
 
 
