@@ -115,8 +115,8 @@ def strip(all_frames: Sequence[Frame], title: str = "", columns: int = _COLUMNS)
     for k, frame in enumerate(all_frames):
         x, y = k % columns * cell[0], k // columns * cell[1]
         items += [f'<g transform="translate({x} {y})">', *_items(frame), "</g>"]
-    top = rows * cell[1]
-    return page(columns * cell[0], top + 24, title or "H1 to Hf", [*items, *_legend(top, all_frames)])
+    bottom, legend = _legend(rows * cell[1], columns * cell[0], all_frames)
+    return page(columns * cell[0], bottom, title or "H1 to Hf", [*items, *legend])
 
 
 def played(all_frames: Sequence[Frame], title: str = "") -> str:
@@ -141,7 +141,8 @@ def played(all_frames: Sequence[Frame], title: str = "") -> str:
     for k, frame in enumerate(all_frames):
         kind = "stage end" if k == len(all_frames) - 1 else "stage"
         items += [f'<g class="{kind}" style="animation-delay:{k * _SECONDS:g}s">', *_items(frame), "</g>"]
-    return page(width, height + 24, title or "H1 to Hf", [*items, *_legend(height, all_frames)])
+    bottom, legend = _legend(height, width, all_frames)
+    return page(width, bottom, title or "H1 to Hf", [*items, *legend])
 
 
 def _items(frame: Frame) -> Iterator[str]:
@@ -168,16 +169,17 @@ def _drawn(frame: Frame) -> Iterator[str]:
     yield from svg.group(svg.BOUNDARY.key, svg.BOUNDARY.attributes, boundary)
 
 
-def _legend(top: int, all_frames: Sequence[Frame]) -> list[str]:
+def _legend(top: int, width: int, all_frames: Sequence[Frame]) -> tuple[int, list[str]]:
+    """Return the bottom of the legend and its elements. Signs that do not fit into a row begin the next row."""
     styles = [(ADDED, "added"), (svg.INSIDE, "inside, eliminated"), (WAITING, WAITING.name)]
     if all_frames[-1].boundary:
         styles.append((svg.BOUNDARY, "on the boundary"))
-
-    def items() -> Iterator[str]:
-        x = 12
-        for style, name in styles:
-            yield svg.sample(style, Pixel(100 * (x + 6), 100 * (top + 8)))
-            yield svg.text(Pixel(100 * (x + 18), 100 * (top + 12)), name)
-            x += 28 + 33 * len(name) // 5
-
-    return svg.group("legend", _FONT, items())
+    items, x, y = [], 12, top
+    for style, name in styles:
+        needed = 28 + 33 * len(name) // 5
+        if x > 12 and x + needed > width:
+            x, y = 12, y + 18
+        items += [svg.sample(style, Pixel(100 * (x + 6), 100 * (y + 8)))]
+        items += [svg.text(Pixel(100 * (x + 18), 100 * (y + 12)), name)]
+        x += needed
+    return y + 24, svg.group("legend", _FONT, items)

@@ -100,7 +100,7 @@ def _subjects(texts: Mapping[str, str]) -> dict[str, str]:
     """
     terms = re.findall(r"^## (.+)$", texts[_GLOSSARY], re.MULTILINE)
     labels = [place for place in places(_GLOSSARY, texts[_GLOSSARY]) if place != label(_GLOSSARY)]
-    entries = [term if term[1:2].isupper() or term in SUBJECTS else term[0].lower() + term[1:] for term in terms]
+    entries = [term if not term[1:2].islower() or term in SUBJECTS else term[0].lower() + term[1:] for term in terms]
     whole = "\n".join(texts.values()).lower()
     rare = {entry.lower(): entry for entry in entries if 0 < whole.count(entry.lower()) <= _MOST_PLACES}
     named = {name.lower(): entry for name, entry in PERSONS.items()} | {name.lower(): name for name in SUBJECTS}

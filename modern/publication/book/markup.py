@@ -21,6 +21,8 @@ _COMMENT = re.compile(r"<!--.*?-->\n?", re.DOTALL)
 _FIRST_UNSUPPORTED = 0x2E80  # the first code point of the East Asian scripts, which the fonts of Typst do not contain
 # A number with a sign, a unit, or an interval; such cells are aligned to the right.
 _NUMBER = re.compile(r"[-−+±]?[\d.,]+(?:[\s%×·^/]|\([−\d.,\sto–-]*\)|[\d.,⁻⁰¹²³⁴-⁹-])*|-|–|")
+_RAISED = re.compile("([\u207b\u2070\u00b9\u00b2\u00b3\u2074-\u2079]+)")
+_LOWERED = str.maketrans("\u207b\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079", "\u22120123456789")
 # Widths in characters: a table has at most _LINE, and the gap between columns _GAP. A column counts with at most _LONG.
 # A cell of more than _CELL is a sentence. The longest word has _WORD by default, and a name of at most _NAME stays on
 # one line.
@@ -39,8 +41,14 @@ def string(text: str) -> str:
 
 
 def say(text: str) -> str:
-    """Return plain text as Typst markup."""
-    return f"#{string(text)};" if text else ""
+    """Return plain text as Typst markup. Raised digits become superscripts: the book's fonts lack most of them."""
+    pieces = _RAISED.split(text)
+    markup = (
+        f"#super({string(piece.translate(_LOWERED))});" if n % 2 else f"#{string(piece)};"
+        for n, piece in enumerate(pieces)
+        if piece
+    )
+    return "".join(markup)
 
 
 def code(text: str) -> str:
@@ -128,6 +136,10 @@ def columns_of(widths: Sequence[int], longest: Sequence[int]) -> tuple[float, li
     extra = [min(width, _LONG) - word if width > word else 0 for width, word in zip(widths, longest, strict=True)]
     spare = max(0.0, room * _USUAL / size - least) / max(1, sum(extra))
     return size, [f"{word + _GAP + spare * weight:.1f}fr" for word, weight in zip(longest, extra, strict=True)]
+
+
+# The labels of chapters that are made from files outside the folder of the documents.
+_CHAPTER_OF = {"KNOWN-FAULTS.md": "known-faults.md", "OPEN-QUESTIONS.md": "open-questions.md"}
 
 
 @dataclass
@@ -245,6 +257,7 @@ class Markdown:
         if not file.endswith(".md") and not (part and not file):
             return ""
         page = posixpath.normpath(posixpath.join(self._folder, file)) if file else self.name
+        page = _CHAPTER_OF.get(posixpath.basename(page), page)
         place = label(page, part) if part else label(page)
         return place if place in self.known else label(page) if label(page) in self.known else ""
 

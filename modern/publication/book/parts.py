@@ -63,7 +63,7 @@ def listings() -> Iterator[str]:
         base = facing(entry.text)
         is_variant = name != entry.text
         if is_variant:
-            yield say(f"Only the passages that differ from {entry.text} are shown.") + "\n\n"
+            yield say(f"Only the passages that differ from {entry.text} are shown.") + "\n\n#v(10pt)\n\n"
         rows = [row for row in listing.rows() if not is_variant or row not in base.rows()]
         noted = {row.id for row in base.rows()} | {row.id for row in rows}
         texts = {card.text for card in base.cards}
@@ -169,7 +169,9 @@ def charts(save: SavePicture) -> Iterator[str]:
             file = save(f"chart-{name}-{number}", chart_svg(drawn, number))
             height = min(_SHEET, page.height * _MILLIMETRES)
             picture = f"#picture({string(file)}, {string(title)}, height: {height:.0f}mm)"
-            yield f"#[{picture}] <{label('chart', name, str(number))}>\n#pagebreak(weak: true)\n\n"
+            is_last = name == programs.TEXTS[-1] and number == len(drawn.pages)
+            break_after = "" if is_last else "#pagebreak(weak: true)\n\n"
+            yield f"#[{picture}] <{label('chart', name, str(number))}>\n{break_after}"
 
 
 def examples(save: SavePicture) -> Iterator[str]:
@@ -231,11 +233,15 @@ def statements() -> Iterator[str]:
         yield table(head, rows, (4, place, 80, 90), (4, min(place, 11), 12, 12))
 
 
+_DOTTED = re.compile(r"\w+(?:\.\w+){2,}")
+
+
 def _statement(judgement: Judged) -> list[str]:
     row = judgement.statement
     grade = "" if row.verdict in (USED, UNTESTABLE) else f", {judgement.grade}"
     verdict = call("strong", say(_SHORT.get(row.verdict, row.verdict) + grade))
     reason = f"as {row.same.partition('.')[2]}" if row.same else row.why
-    why = say(f": {reason}") if reason else ""
+    # A long dotted name may be broken after its dots.
+    why = say(": " + _DOTTED.sub(lambda name: name[0].replace(".", ".\u200b"), reason)) if reason else ""
     number = row.id.partition(".")[2]
     return [f"#[{say(number)}] <{label('row', row.id)}>", say(row.page), say(raised(row.says)), verdict + why]
