@@ -6,6 +6,7 @@ Set ``HULL1620_SITE`` to the folder of a site that is already built to skip the 
 import fcntl
 import os
 import re
+import shutil
 import subprocess
 import sys
 import zipfile
@@ -14,7 +15,6 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from shutil import which
 from urllib.parse import unquote, urlsplit
 
 import lxml.html
@@ -23,7 +23,7 @@ from lxml.etree import _Element
 from modern.publication.console import install_machine
 from tests.support.paths import ROOT
 
-CHROMIUM = which("chromium") or which("chromium-browser") or ""
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or ""
 MODULES = ROOT / "docs" / "console" / "node_modules"
 """The folder into which ``npm ci --prefix docs/console`` installs axe and html-validate."""
 
@@ -83,6 +83,7 @@ def equipped(folder: Path) -> Path:
     site, copy = built(folder), folder / "equipped"
     with first_caller(folder, "equipped") as is_first:
         if is_first:
+            shutil.rmtree(copy, ignore_errors=True)  # what a failed attempt left
             copy.mkdir()
             for entry in site.iterdir():
                 if entry.name != "console":

@@ -154,6 +154,14 @@ def _with_labels(row: str, labels: list[str]) -> str:
     return _CELL.sub(cell, row)
 
 
+_INDEX = re.compile(r"\b([A-Z])_(NV\+1|NV|NE|\d+|[a-z](?:[+-]1)?)(?![\w^])")
+
+
+def lowered(content: str) -> str:
+    """Return plain text as HTML in which indices of points and hulls are subscripts: ``H_1``, ``P_NV``, ``H_j-1``."""
+    return _INDEX.sub(r"\1<sub>\2</sub>", escape(content))
+
+
 def marked(content: str, spans: Iterable[tuple[int, int]], name: str) -> str:
     """Return plain text with the given spans of characters wrapped in an element."""
     pieces, end = [], 0

@@ -23,6 +23,7 @@ from modern.publication.site.markup import (
     element,
     escape,
     link,
+    lowered,
     preformatted,
     run_link,
     table,
@@ -74,7 +75,11 @@ def _remark(name: str, block: Block, sheet_of: dict[int, int]) -> str:
     where = f"{link('reference/concordance', '', 'Chapter 3')}: {where}. " if where else ""
     sheets = dict.fromkeys(sheet for card, sheet in sheet_of.items() if card in block.cards)
     where += ", ".join(link(_CHARTS[name], f"sheet-{n}", f"flow chart, sheet {n}") for n in sheets)
-    inner = text("h3", block.title) + text("p", block.text) + (element("p", where, cls="quiet") if where else "")
+    inner = (
+        text("h3", block.title)
+        + element("p", lowered(block.text))
+        + (element("p", where, cls="quiet") if where else "")
+    )
     if moment := moments(name).get(block.cards.start):
         inner = element("div", inner) + element("figure", drawn(moment) + text("figcaption", moment.caption()))
     return element("li", inner, cls="remark", id=f"about-{place}")
@@ -209,7 +214,7 @@ def _facts(listing: Facing, card: Card) -> str:
     block = next(block for block in commentary(listing.program).blocks if card.number in block.cards)
     first = listing.cards[block.cards.start - 1].place
     facts = (
-        ("purpose", f"{link(listing.program, f'about-{first}', block.title)}: {escape(block.text)}"),
+        ("purpose", f"{link(listing.program, f'about-{first}', block.title)}: {lowered(block.text)}"),
         ("card", f"{card.number} of {len(listing.cards)}; p. {card.page}"),
         ("reached from", come("jump")),
         ("goes to", go("jump")),
@@ -272,7 +277,7 @@ def _places(program: str, numbers: Iterable[int]) -> str:
 
 
 def _meaning(gloss: Gloss) -> str:
-    return escape(gloss.text) + (f" From {gloss.limits[0]} to {gloss.limits[1]}." if gloss.limits else "")
+    return lowered(gloss.text) + (f" From {gloss.limits[0]} to {gloss.limits[1]}." if gloss.limits else "")
 
 
 def _type_of(name: Name) -> str:

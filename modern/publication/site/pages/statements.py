@@ -7,7 +7,7 @@ from modern.claims.full import FullSearch, recorded_for
 from modern.claims.register import COLUMNS, DOCUMENTS, UNTESTABLE, USED, Judged, Statement, column, counts, judged
 from modern.claims.sampled_sets import counterexample
 from modern.publication.site.made import Part, one_of, slug
-from modern.publication.site.markup import definitions, details, element, escape, preformatted, run_link, text
+from modern.publication.site.markup import definitions, details, element, escape, lowered, preformatted, run_link, text
 from modern.study.report import raised
 
 # The sign and the CSS class of each column of the counts.
@@ -69,7 +69,7 @@ def _statement(judgement: Judged) -> str:
         cls="facts",
     )
     body = details("evidence", facts) if facts else ""
-    inner = element("div", head, cls="statement-head") + text("p", raised(row.says)) + body
+    inner = element("div", head, cls="statement-head") + element("p", lowered(raised(row.says))) + body
     return element("li", inner, id=row.id, cls=_CLASSES[name])
 
 
