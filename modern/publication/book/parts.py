@@ -220,7 +220,7 @@ def _pictures(number: int, save: SavePicture) -> Iterator[str]:
         return
     file = save(f"stages-{number}", strip(stages, columns=2))
     title = f"The construction of example {number}, H1 to Hf"
-    yield f"#picture({string(file)}, {string(title)}, width: 62%, placement: auto)\n\n"
+    yield f"#picture({string(file)}, {string(title)}, width: 62%)\n\n"
 
 
 def statements() -> Iterator[str]:
