@@ -16,6 +16,15 @@ from typing import Any, Final
 ROOT: Final = Path(__file__).parents[2]
 # The folder in which ``make wheel``, ``make edition``, ``make book`` and ``make archive`` put their results.
 DIST: Final = ROOT / "dist"
+# The pages that contain or replace files of the project.
+PAGES_OF_FILES = {
+    "fortran_src/README.md": "text",
+    "fortran_src/KNOWN-FAULTS.md": "known-faults",
+    "fortran_src/OPEN-QUESTIONS.md": "open-questions",
+    "transcripts/README.md": "transcripts",
+    "README.md": "index",
+    "CHANGELOG.md": "changes",
+}
 
 
 class BuildError(Exception):

@@ -343,7 +343,7 @@ def _name_bars(axes: Any, chart: Chart, width: float, top: float) -> None:
     axes.spines["left"].set_bounds(0, top)
     above: Any = {"xytext": (0, 4), "textcoords": "offset points", "ha": "center", "va": "bottom"}
     for k, name in enumerate(lines):
-        axes.annotate(name, (left + (k + 0.5) * width, top), rotation=90, **above, fontsize=8.5, color=INK)
+        axes.annotate(name, (left + (k + 0.5) * width, top), rotation=90, **above, **_SMALL | {"bbox": None})
 
 
 def _lying(axes: Any, chart: Chart, k: int) -> None:

@@ -12,6 +12,8 @@ from dataclasses import dataclass, field
 from markdown_it import MarkdownIt
 from markdown_it.tree import SyntaxTreeNode
 
+from modern.publication.building import PAGES_OF_FILES
+
 # The directive of a part that the site generates from data, and the language of the code fence that replaces it.
 _MADE = re.compile(r"^:::\{made\} (.*)\n:::$", re.MULTILINE)
 _MADE_FENCE = "made "
@@ -138,8 +140,8 @@ def columns_of(widths: Sequence[int], longest: Sequence[int]) -> tuple[float, li
     return size, [f"{word + _GAP + spare * weight:.1f}fr" for word, weight in zip(longest, extra, strict=True)]
 
 
-# The labels of chapters that are made from files outside the folder of the documents.
-_CHAPTER_OF = {"KNOWN-FAULTS.md": "known-faults.md", "OPEN-QUESTIONS.md": "open-questions.md"}
+# The pages that replace files outside the folder of the documents, by the names of these files.
+_PAGE_OF = {posixpath.basename(file): f"{page}.md" for file, page in PAGES_OF_FILES.items() if "README" not in file}
 
 
 @dataclass
@@ -257,7 +259,7 @@ class Markdown:
         if not file.endswith(".md") and not (part and not file):
             return ""
         page = posixpath.normpath(posixpath.join(self._folder, file)) if file else self.name
-        page = _CHAPTER_OF.get(posixpath.basename(page), page)
+        page = _PAGE_OF.get(posixpath.basename(page), page)
         place = label(page, part) if part else label(page)
         return place if place in self.known else label(page) if label(page) in self.known else ""
 

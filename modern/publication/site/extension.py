@@ -15,19 +15,10 @@ from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 from sphinx.writers.html5 import HTML5Translator
 
+from modern.publication.building import PAGES_OF_FILES
 from modern.publication.site.made import Part, make
 from modern.publication.site.markup import element, relative, stacked, text
 from modern.publication.site.pages.addresses import places
-
-# The pages that contain or replace files of the project.
-PAGES_OF_FILES = {
-    "fortran_src/README.md": "text",
-    "fortran_src/KNOWN-FAULTS.md": "known-faults",
-    "fortran_src/OPEN-QUESTIONS.md": "open-questions",
-    "transcripts/README.md": "transcripts",
-    "README.md": "index",
-    "CHANGELOG.md": "changes",
-}
 
 
 class MadeDirective(SphinxDirective):

@@ -161,6 +161,19 @@ def test_the_last_stage_shows_every_point_as_vertex_inside_or_boundary_point() -
     assert [number.text for number in numbers] == [str(index + 1) for stage in hull.history for index in stage.added]
 
 
+@pytest.mark.parametrize("columns", [1, 2, 3])
+def test_the_legend_of_the_stages_fits_into_the_picture(columns: int) -> None:
+    flat_top = [(0, 0, 0), (6, 0, 0), (0, 6, 0), (0, 0, 6), (1, 1, 1), (2, 2, 2), (3, 3, 0), (6, 6, 6)]
+    text = strip(frames(staged(flat_top), width=212), columns=columns)
+    picture = ElementTree.fromstring(text)
+    width, height = float(picture.get("width")), float(picture.get("height"))
+    names = [entry for entry in groups(text)["legend"] if entry.text]
+    assert [entry.text for entry in names][-1] == "on the boundary"
+    # A letter of 12 pixels is about 6.6 pixels wide.
+    assert all(float(entry.get("x")) + 6.6 * len(entry.text) <= width for entry in names)
+    assert all(float(entry.get("y")) < height for entry in names)
+
+
 def test_strip_and_animation_contain_all_stages() -> None:
     construction = frames(staged(SOLID))
     text = strip(construction, "solid")

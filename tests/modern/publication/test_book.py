@@ -213,3 +213,8 @@ def test_without_typst_the_message_names_the_package(tmp_path: Path, monkeypatch
     assert book.main([str(tmp_path / "x.pdf")]) == 2
     assert capsys.readouterr().err == f"book: {book.MISSING_TYPST}\n"
     assert not (tmp_path / "x.pdf").exists()
+
+
+def test_raised_digits_become_superscripts() -> None:
+    assert say("e = 10\u207b\u2076.") == '#"e = 10";#super("\u22126");#".";'
+    assert say("") == ""

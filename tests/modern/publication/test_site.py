@@ -17,7 +17,7 @@ from modern.edition import programs
 from modern.publication import essay
 from modern.publication.site import build as site_build
 from modern.publication.site.made import make, names
-from modern.publication.site.markup import code, element, escape, inline, relative, stacked
+from modern.publication.site.markup import code, element, escape, inline, lowered, relative, stacked
 from tests.support import editions
 from tests.support.editions import page_of_each_kind, pages, words
 from tests.support.paths import ROOT
@@ -220,9 +220,25 @@ def test_cells_escapes_and_ids_are_written_correctly() -> None:
     assert inline(svg, "k", "c") == (
         '<svg class="c" aria-labelledby="t-k"><title id="t-k">x</title><use href="#f-k"/><g id="f-k"/></svg>'
     )
+    assert lowered("H_1 < P_NV+1, x_1, H_2^3") == "H<sub>1</sub> &lt; P<sub>NV+1</sub>, x_1, H_2^3"
     # A percent sign stays with its number.
     wide = "".join(f"<th>{'w' * 30}{n}</th>" for n in range(2))
     gap, cell = "\N{NO-BREAK SPACE}", "<td><a title='1{0}2'>3{0}4</a></td><td>5{0}%</td>"
     html = stacked(f"<table><tr>{wide}</tr><tr>{cell.format(gap)}</tr></table>")
     assert html.count('<wbr class="gap inner">') == 1
     assert f"title='1{gap}2'>3{gap}<wbr" in html
+
+
+@pytest.mark.parametrize(
+    ("page", "names"),
+    [("errors", ["5", "13", "E8", "F1", "F9"]), ("statements/yau-srihari", ["Abstract", "3.2.1", "Fig. 1", "4.6.2"])],
+)
+def test_the_bar_of_a_long_page_has_short_names(site: Path, page: str, names: list[str]) -> None:
+    links = pages(site)[f"{page}.html"].root.xpath("//nav[@class='jump']/a")
+    assert set(names) <= {words(link) for link in links}
+    assert max(len(words(link)) for link in links) < 9
+
+
+def test_links_of_faults_and_questions_lead_to_pages(site: Path) -> None:
+    targets = {str(href) for href in pages(site)["open-questions.html"].root.xpath("//article//a/@href")}
+    assert {"known-faults.html", "reference/machine.html"} <= {target.partition("#")[0] for target in targets}

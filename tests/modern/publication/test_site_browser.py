@@ -282,3 +282,26 @@ def test_the_search_has_no_descriptions_of_commands_as_names(site: Path) -> None
     index = (site / "searchindex.js").read_text(encoding="utf-8")
     assert "&#x27;" not in index
     assert '"Punch points as a data deck":' not in index
+
+
+@pytest.mark.parametrize("width", [360, 1280])
+def test_the_next_page_is_at_the_right(chromium: Browser, site: Path, width: int) -> None:
+    with opened(chromium, site, "parting.html", width=width) as (tab, _):
+        previous, following = (tab.locator(f".related-pages .{name}-page").bounding_box() for name in ("prev", "next"))
+        assert previous is not None
+        assert following is not None
+        assert previous["x"] + previous["width"] + 10 < following["x"]
+
+
+def test_a_shadow_shows_that_a_listing_continues(chromium: Browser, site: Path) -> None:
+    """Above the text at the right edge there is a shadow at the start of the lines, and none at their end."""
+    with opened(chromium, site, "wrong.html", width=360) as (tab, _):
+        pre = tab.locator("article pre").first
+        assert pre.evaluate("element => element.scrollWidth - element.clientWidth") > 50
+        pre.evaluate("element => { element.scrollIntoView(); window.scrollBy(0, -200); }")
+        box = pre.bounding_box()
+        assert box is not None
+        clip = {"x": box["x"] + box["width"] - 8, "y": box["y"] + 2, "width": 6, "height": 4}
+        before = tab.screenshot(clip=clip)  # type: ignore[arg-type]
+        pre.evaluate("element => { element.scrollLeft = 10000; }")
+        assert tab.screenshot(clip=clip) != before  # type: ignore[arg-type]

@@ -8,6 +8,7 @@ from inspect import signature
 
 import pytest
 
+from emulator.language.cards import Deck, deck_from_text
 from emulator.machine.result import Options
 from emulator.machine.timing import measure
 from emulator.numbers import numbers
@@ -21,6 +22,12 @@ from modern.study.report import unbroken
 from modern.study.tomlplan import _CELL, _HEAD
 from modern.thesis.job import run_hull
 from tests.support.paths import ROOT
+
+
+def machine_deck(name: str) -> Deck:
+    folder = ROOT / "tests" / "data" / "machine_runs" / name
+    return deck_from_text(name, (folder / "deck.cards").read_text(encoding="ascii"))
+
 
 DOCS = ROOT / "docs" / "studies"
 
@@ -47,20 +54,38 @@ def test_intervals_quoted_in_the_explanation_are_those_of_the_tables(section: st
     assert [interval for interval in intervals if not any(interval in table for table in tables)] == []
 
 
-@pytest.mark.parametrize("number", [4, 5, 6])
-def test_times_of_the_moved_origin_are_those_of_the_programs(number: int) -> None:
+MOVED = {
+    "example 4": ("costs {} of the seconds in example 4", input_deck(4)),
+    "example 5": ("and {} in example 5", input_deck(5)),
+    "example 6": ("It saves {} in example 6", input_deck(6)),
+    "points near a sphere": ("{} for the points near a sphere", machine_deck("25_sphere_int_n20")),
+    "random points": ("{} for the random points", machine_deck("12_randint_n40_a99")),
+}
+
+
+@pytest.mark.parametrize("name", MOVED)
+def test_times_of_the_moved_origin_are_those_of_the_programs(name: str) -> None:
     """The table by hand: operations and processor seconds of the last program, without and with the translation."""
+    sentence, deck = MOVED[name]
     text = (ROOT / "docs" / "explanation" / "studies.md").read_text(encoding="utf-8")
-    (table,) = re.findall(rf"^\| example {number} .*\n.*$", text, re.MULTILINE)
+    (table,) = re.findall(rf"^\| {name} ?[(,].*\n.*$", text, re.MULTILINE)
     versions = {"as given": ("corrected",), "moved": ("corrected", "translation")}
+    times = []
     for (origin, layers), line in zip(versions.items(), table.splitlines(), strict=True):
         options = Options(numbers("truncating:16"), core=60_000)
-        step = run_hull(input_deck(number), lambda name, layers=layers: with_layers(name, layers), options).steps[-1]
+        step = run_hull(deck, lambda program, layers=layers: with_layers(program, layers), options).steps[-1]
         measured = measure(step.program, step.result)
         operations = dict(measured.operations)
-        additions = sum(operations.get(name, 0) for name in ("FAD", "FSB", "FSBR"))
-        seconds = f"{measured.processor_time.seconds:.1f} ({measured.processor_time.interval})"
-        assert line.endswith(f"| {origin} | {additions:,} | {operations['FMP']:,} | {seconds} |")
+        additions = sum(operations.get(code, 0) for code in ("FAD", "FSB", "FSBR"))
+        seconds = measured.processor_time.seconds
+        low, high = map(float, measured.processor_time.interval.split(" to "))
+        form = ",.0f" if seconds >= 1000 else ".1f"
+        shown = f"{seconds:{form}} ({low:{form}} to {high:{form}})"
+        assert line.endswith(f"| {origin} | {additions:,} | {operations['FMP']:,} | {shown} |")
+        times.append(seconds)
+    share = f"{100 * abs(times[0] - times[1]) / times[0]:.1f} %"
+    assert sentence.format(share) in " ".join(text.split())
+    assert (times[1] > times[0]) == (name in ("example 4", "example 5"))
 
 
 @pytest.mark.parametrize("name", names())

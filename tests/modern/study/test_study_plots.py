@@ -221,3 +221,14 @@ def test_committed_charts_belong_to_the_report_and_hide_no_series(name: str) -> 
             )
         if isinstance(chart, Lines) and not layout.panels(chart):
             assert max(layout.hidden(chart)) < 1
+
+
+def test_bars_can_be_told_from_their_hatching_and_error_bars_in_a_dark_theme() -> None:
+    def luminance(colour: str) -> float:
+        channels = (int(colour[k : k + 2], 16) / 255 for k in (1, 3, 5))
+        red, green, blue = (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in channels)
+        return 0.2126 * red + 0.7152 * green + 0.0722 * blue
+
+    ink = luminance(plots.DARK[plots.INK])
+    for fill in plots.FILLS:
+        assert (ink + 0.05) / (luminance(plots.DARK.get(fill, fill)) + 0.05) > 3, fill
