@@ -23,7 +23,9 @@ from lxml.etree import _Element
 from modern.publication.console import install_machine
 from tests.support.paths import ROOT
 
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or ""
+CHROMIUM = next(filter(None, map(shutil.which, ("chromium-headless-shell", "chromium", "chromium-browser"))), "")
+"""The browser without a window opens a page in a third of the time that the whole browser needs."""
+
 MODULES = ROOT / "docs" / "console" / "node_modules"
 """The folder into which ``npm ci --prefix docs/console`` installs axe and html-validate."""
 
