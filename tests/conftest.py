@@ -36,17 +36,21 @@ def pytest_collection_finish() -> None:
     gc.freeze()
 
 
+WORKER = os.environ.get("PYTEST_XDIST_WORKER", "")
+"""The name of this worker; it is empty if one process runs all tests, also without the plugin xdist."""
+
+
 @pytest.fixture(scope="session")
-def shared(tmp_path_factory, worker_id: str) -> Path:
+def shared(tmp_path_factory) -> Path:
     """Return a folder that all workers of the test session share."""
     base = tmp_path_factory.getbasetemp()
-    return base if worker_id == "master" else base.parent
+    return base.parent if WORKER else base
 
 
 @pytest.fixture(scope="session", autouse=True)
-def _site(request: pytest.FixtureRequest, shared: Path, worker_id: str) -> Iterator[None]:
+def _site(request: pytest.FixtureRequest, shared: Path) -> Iterator[None]:
     """Start to build the site in the background, if tests of several workers will need it."""
-    if worker_id != "gw0" or not any("site" in getattr(item, "fixturenames", ()) for item in request.session.items):
+    if WORKER != "gw0" or not any("site" in getattr(item, "fixturenames", ()) for item in request.session.items):
         yield
         return
     process = editions.begin(shared)

@@ -1,8 +1,10 @@
 """The tool behind ``make mutants``: its sample, its tables, and its verdicts on a small tree."""
 
 import csv
+import os
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -10,7 +12,7 @@ import pytest
 pytest.importorskip("cosmic_ray")
 
 from tests.mutants.__main__ import main
-from tests.mutants.areas import HERE, Area, TableError, read_areas, read_equivalents
+from tests.mutants.areas import HERE, ROOT, Area, TableError, read_areas, read_equivalents
 from tests.mutants.sample import difference, mutants, mutated, sample
 from tests.mutants.trial import KILLED, SURVIVED, TIMEOUT, Unmutated, copy_tree, trial
 
@@ -122,3 +124,17 @@ def test_an_endless_loop_is_stopped(toy: Path, tmp_path_factory) -> None:
     area = Area("toy", ("toy.py",), ("tests/test_toy.py",))
     assert trial(copy, area, mutant, Unmutated(1, 0.1, 1.0, copy / "order.json")).outcome == TIMEOUT
     assert (copy / "toy.py").read_text(encoding="utf-8") == TOY
+
+
+def test_the_fixtures_of_all_tests_need_no_plugin() -> None:
+    """The tests that judge mutants run without the plugins that pytest loads by default."""
+    one = f"{Path(__file__).parent / 'test_locks.py'}::test_unsatisfied_requirements_and_other_build_tools_are_reported"
+    process = subprocess.run(
+        [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", one],
+        cwd=ROOT,
+        env={**os.environ, "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert process.returncode == 0, process.stdout
