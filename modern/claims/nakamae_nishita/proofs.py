@@ -11,6 +11,7 @@ from modern.claims.algebra import (
     positive,
     proves,
     term,
+    turn,
     variables,
     zero,
 )
@@ -72,6 +73,20 @@ def three_corners() -> Proof:
         "are collinear, which a convex angle excludes, or if the face is seen in its own plane.",
         *front.steps,
         Step("formula (1) is the turn", {}, zero(formula_1 - bracket(u, v, w))),
+    )
+
+
+@proves("nakamae-nishita.44")
+def product_of_segments() -> Proof:
+    p, q, a, b = (point(name, 2) for name in "pqab")
+    product, at_a, at_b = turn(minus(p, q), minus(a, b)), -bracket(p, q, a), -bracket(p, q, b)
+    enters, leaves = ({"a": positive(sign * at_a), "b": positive(-sign * at_b)} for sign in (-1, 1))
+    return Proof.of(
+        "the product is negative if the edge enters the contour at the segment, and positive if it leaves it there",
+        "Formula (1) for P_i and P_i+1 is positive to the right, which is inside a clockwise contour. The product is "
+        "formula (1) at P_A minus that at P_B. The nearer polyhedron hides the part of the edge inside its contour.",
+        Step("the product is negative if the edge enters", enters, positive(-product), (term("a"), term("b"))),
+        Step("the product is positive if the edge leaves", leaves, positive(product), (term("a"), term("b"))),
     )
 
 

@@ -11,7 +11,7 @@ from modern.claims.invariants import counts_in_table_1
 from modern.claims.nakamae_nishita.drawings import SCENES, Box, drawn, orders, pieces_against_rays, polyhedra
 from modern.claims.nakamae_nishita.tables import POLYGONS, SQUARE, Place, between, crosses, lines_of
 from modern.claims.sampled_sets import counterexample, counterexample_points
-from modern.drawing.visible import CONTOUR, INNER, line_through, sign, value
+from modern.drawing.visible import CONTOUR, INNER, sign, value
 from modern.geometry.mesh import sides
 from modern.geometry.vectors import dot, minus, plus
 from modern.papers.nakamae_nishita.contours import values
@@ -141,18 +141,6 @@ def three_conditions(cases: int = 3) -> Check:
     outcomes = [{*courses} == {(False, True), (True, False), (False, True, False)}]
     check = searched(_CONTOURS, cases, outcomes, f"{len(courses)} segments enter a contour, leave it, or do both")
     return check.unless(touching, f"{touching} segments that only touch the contour at a corner or along a side")
-
-
-@claim("nakamae-nishita.44")
-def sense_of_intersection() -> Check:
-    p, q, a, b = (point[:2] for point in counterexample_points("sense.csv"))
-    printed = (p[0] - q[0]) * (a[1] - b[1]) - (p[1] - q[1]) * (a[0] - b[0])
-    corrected = (q[0] - p[0]) * (a[1] - b[1]) - (q[1] - p[1]) * (a[0] - b[0])
-    enters = value(line_through((*p, 1), (*q, 1)), (*a, 1)) < 0 < value(line_through((*p, 1), (*q, 1)), (*b, 1))
-    message = f"for a segment that enters the contour, the product must be positive; the printed one is {printed}, and "
-    message += f"the corrected one is {corrected}"
-    reading = "(P_i+1 - P_i) x (P_A - P_B), with the sign of formula (6)"
-    return slip(printed > 0, enters and corrected > 0, reading, message)
 
 
 @claim("nakamae-nishita.48")

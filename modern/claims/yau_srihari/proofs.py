@@ -59,7 +59,7 @@ def hull_is_convex() -> Proof:
 def convex_epigraph() -> Proof:
     return Proof.of(
         "a function is convex if and only if the set on and above its graph is, and similarly for concave functions",
-        "By definition, f is convex if and only if no segment between two points of its graph is below the graph. If f "
+        "By definition, f is convex if and only if segments between points of its graph are nowhere below it. If f "
         "is convex, a point between two points of the epigraph is on or above the combination of two points of "
         "the graph, which is on or above the graph. Conversely, take two points of the graph itself: a point between "
         "them is in the epigraph, and so f is at most their combination. A concave function is treated in the same way "
