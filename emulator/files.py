@@ -115,7 +115,7 @@ def write_text(path: str, text: str) -> None:
 
 
 def check_writable(*paths: str | None) -> None:
-    """Raise FileError if an output cannot be written or two outputs are the same file, for use before a long run."""
+    """Raise FileError if an output cannot be written or two outputs are the same file.  Call this before a long run."""
     named = [path for path in paths if path is not None and path != "-"]
     real = [os.path.realpath(path) for path in named if path and (os.path.isfile(path) or not os.path.exists(path))]
     for path in named:
@@ -137,7 +137,7 @@ def check_writable(*paths: str | None) -> None:
 
 
 def check_folder(path: str | None) -> None:
-    """Raise FileError if files cannot be written to a folder, existing or new, for use before a long run."""
+    """Raise FileError if files cannot be written to a folder, existing or new.  Call this before a long run."""
     if not path:
         return
     folder = os.path.realpath(path)

@@ -2,9 +2,9 @@
 
 The engine supports READ, PUNCH, PRINT and TYPE with any FORMAT, SQRT, integer powers, error codes, PAUSE and the normal
 endings.  If a run needs anything else, it ends with NOT_HERE, and the caller runs the deck again on a
-:class:`emulator.machine.machine.Machine`.  Such a run reaches a library function other than SQRT, an ACCEPT, a card
-field without a number, a number that needs a warning, a record that is too long, a list that does not fit its FORMAT,
-or the end of a deck within a data set.
+:class:`emulator.machine.machine.Machine`.  A run ends with NOT_HERE at a library function other than SQRT, an ACCEPT, a
+card field without a number, a number that needs a warning, a record that is too long, a list that does not fit its
+FORMAT, or the end of a deck within a data set.
 
 The functions use only the part of Python that numba compiles.
 """

@@ -73,7 +73,7 @@ class Marks(NamedTuple):
 
 
 class Code(NamedTuple):
-    """The object code, the parts of it that devices use, and for each library function 1 if it is SQRT, else 0."""
+    """The object code, the parts of it that devices use, and a number for each library function: 1 for SQRT, else 0."""
 
     flat: Flat
     marks: Marks
@@ -81,7 +81,7 @@ class Code(NamedTuple):
 
 
 class Forms(NamedTuple):
-    """The FORMAT statements as FORM integers each, their specifications as PART integers each, and their texts."""
+    """The FORMAT statements (FORM integers for each), their specifications (PART integers for each) and texts."""
 
     formats: Row
     specs: Row
@@ -89,7 +89,7 @@ class Forms(NamedTuple):
 
 
 class Cards(NamedTuple):
-    """The cards of all decks as one array, 80 character codes each, and the number of the first card of each deck."""
+    """The cards of all decks in one array, with 80 character codes for each card, and the first card of each deck."""
 
     columns: Row
     first: Row
@@ -188,7 +188,7 @@ def to_field(marks: Marks, forms: Forms, cards: Cards, desk: Desk, repeat: bool)
 
 
 def text(place: int, width: int, cards: Cards, desk: Desk) -> int:
-    """On output, write the text of an H or X field.  On input, store a card's columns as its text (C26-5619 p. 37)."""
+    """On output, write the text of an H or X field.  On input, the card's columns become its text (C26-5619 p. 37)."""
     devices = desk.devices
     column = devices[COLUMN]
     devices[COLUMN] += width
@@ -315,7 +315,7 @@ def put_typed(line: Row, length: int, marks: Marks, desk: Desk) -> int:
 
 
 def stamp(number: int, desk: Desk) -> None:
-    """Append a number to the log, with as many digits as the constant STAMP says."""
+    """Append the last STAMP digits of a number to the log."""
     used = desk.devices[USED]
     for k in range(STAMP):
         desk.log[used + STAMP - 1 - k] = DIGIT + number % 10

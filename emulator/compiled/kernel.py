@@ -1,9 +1,10 @@
 """The kernel: one loop over object code and storage, on integers only, for runs without an operator or a trace.
 
-Storage is two sequences, mantissas and exponents (emulator/numbers/arithmetic.py).  A fixed-point number is stored as
-its value with the exponent FIXED_POINT.  Like the interpreter, the loop returns a reason whenever it needs something
-outside the arithmetic: input, output, a library function, a message or the end of the run.  emulator/compiled/deck.py
-performs the service and calls the loop again.  The code uses only the part of Python that numba compiles.
+Core storage is represented by two sequences, the mantissas and the exponents of all fields
+(emulator/numbers/arithmetic.py).  A fixed-point number is stored as its value with the exponent FIXED_POINT.  Like the
+interpreter, the loop returns a reason whenever it needs something outside the arithmetic: input, output, a library
+function, a message or the end of the run.  emulator/compiled/deck.py performs the service and calls the loop again.
+The code uses only the part of Python that numba compiles.
 """
 
 from collections.abc import MutableSequence
@@ -47,7 +48,7 @@ def owe(registers: Row, steps: int) -> None:
 
 
 def run(code: Flat, core: Core, counts: Row, registers: Row, rules: Rules, limit: int, most: int, strict: int) -> int:
-    """Execute instructions until one needs the caller or the run ends, and return the reason.
+    """Execute instructions until one needs a service of the caller or the run ends, and return the reason.
 
     ``limit``, ``most``, ``strict`` and the operations are the same as in :func:`emulator.machine.interpreter.run`,
     which cites the source of each operation.

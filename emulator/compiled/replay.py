@@ -41,7 +41,8 @@ def repeat(
     """Repeat the operations of a tape in a decimal arithmetic.
 
     ``mantissas`` and ``exponents`` already hold the input numbers of the tape and receive the results.  With random
-    rounding, operation k, counted from 0, uses random number k + 1 of the seed.  numba compiles this function.
+    rounding, the operation with index k, counted from 0, uses the random number k + 1 of the seed in ``rules``.  numba
+    compiles this function.
     """
     for k in range(len(operations)):
         operation = operations[k]
@@ -143,7 +144,7 @@ def _or(largest: Number, divide: _Operation) -> _Operation:
 def _follow(tape: Tape, values: list[Any], functions: Sequence[_Operation], negate: Callable[[Any], Any]) -> None:
     """Repeat the operations of a tape on ``values``, which holds the input numbers and receives the results.
 
-    ``functions`` are those for ADD, SUBTRACT, MULTIPLY and DIVIDE, and ``negate`` is the function for NEGATE.
+    ``functions`` has one function for each of ADD, SUBTRACT, MULTIPLY and DIVIDE, and ``negate`` is that for NEGATE.
     """
     named = dict(zip((ADD, SUBTRACT, MULTIPLY, DIVIDE), functions, strict=True))
     for k, (operation, i, j) in enumerate(zip(tape.operations, tape.firsts, tape.seconds, strict=True)):

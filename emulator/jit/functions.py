@@ -68,7 +68,7 @@ class Compiled:
 
     @property
     def must_compile(self) -> bool:
-        """True if :meth:`ready` would now have to compile the function and would keep the result in the cache."""
+        """True if a call of :meth:`ready` would compile the function now and store the result in the cache."""
         return self.keeps and not self.kept and not self.function.overloads
 
     def ready(self, *arguments: Any) -> Function:
@@ -107,7 +107,7 @@ class Compiled:
 
 @contextmanager
 def _shown(line: str) -> Iterator[None]:
-    """Show a line on the terminal, if there is one, during the block, and erase it at the end."""
+    """Show a line on the terminal, if there is one, while the block runs, and erase the line at the end."""
     file = sys.stderr if line and sys.stderr is not None and sys.stderr.isatty() else None
     with suppress(OSError):
         print(line, end="", file=file, flush=True) if file else None

@@ -8,10 +8,11 @@ To add a kind of statement:
 
 1. ``tree.py``: a frozen dataclass with the manual's page, and its name in ``Body``.
 2. ``dialect.lark``: a rule for the text of the statement without its number and blanks.
-3. ``statements.py``: a row of ``_PREFIXES`` that names the rule.  The first prefix that matches decides.
+3. ``statements.py``: a row of ``_PREFIXES`` that names the rule.  The first prefix with which the text begins selects
+   the rule.
 4. ``parser.py``: the rule in ``_FORMS``, with the statement's form for messages and its error type, and a method of
    ``_Builder`` that makes the dataclass.  A rule named like a keyword of Python needs an alias (``-> if_``).
-5. ``foreign.py``: remove the statement if it is listed there as one of another FORTRAN.
+5. ``foreign.py``: remove the statement if this module lists it as a statement of another FORTRAN.
 6. ``compiler.py``: a case of ``_Translation._body`` that emits operations, an entry of ``_NO_DO_END`` if no DO may end
    with the statement, and an entry of ``_EFFECTS`` if a trace should show its effect.  mypy reports an error until the
    case exists.
@@ -35,11 +36,11 @@ To add a FORMAT code that transfers a number:
 2. ``formats.py``: the letter in ``_KINDS`` and its widths in ``_Reader.one``.  Remove it from ``FOREIGN_FIELDS`` in
    ``foreign.py``.  In ``_Reader.one``, also add the letter to the message that lists the codes and to the test for
    decimals.
-3. ``emulator/machine/devices.py`` and ``emulator/compiled/devices.py``: call the new functions for an ITEM.  The
-   constants at the top of ``compiled/devices.py``, and ``_KINDS`` and ``WAYS`` in ``compiled/runner.py``, number the
-   kinds.  ``_check_mode`` and its callers in ``machine/devices.py``, and the same tests in ``compiled/devices.py`` and
-   in the runtimes, assume that every code except I transfers a floating-point number.  If the new code transfers a
-   fixed-point number, add it to these tests.
+3. ``emulator/machine/devices.py`` and ``emulator/compiled/devices.py``: call the new functions in the action of the
+   operation ITEM.  The constants at the top of ``compiled/devices.py``, and ``_KINDS`` and ``WAYS`` in
+   ``compiled/runner.py``, number the kinds.  ``_check_mode`` and its callers in ``machine/devices.py``, and the same
+   tests in ``compiled/devices.py`` and in the runtimes, assume that every code except I transfers a floating-point
+   number.  If the new code transfers a fixed-point number, add it to these tests.
 4. ``emulator/translation/runtime.c`` and ``runtime.f90``: read and write the field.
 5. ``ibm1962.py``: the digit of the letter in ``KINDS``, for object decks.
 6. ``emulator/machine/timing.py``: the times of reading and writing the field.

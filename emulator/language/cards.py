@@ -98,7 +98,7 @@ def read_deck(path: str | os.PathLike[str], change: Callable[[str], str] | None 
 
 
 def deck_from_bytes(name: str, data: bytes, change: Callable[[str], str] | None = None) -> Deck:
-    """Make a deck from the bytes of a deck file.  ``change`` and the errors are those of :func:`read_deck`."""
+    """Make a deck from the bytes of a deck file.  For ``change`` and the errors raised, see :func:`read_deck`."""
     try:
         text = data.decode("utf-8")
     except UnicodeDecodeError:

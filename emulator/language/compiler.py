@@ -72,9 +72,9 @@ class _OpenDo:
 class _Translation:
     """The state of one compilation.
 
-    ``jumps`` has a pair for each branch: the statement number to which it leads, and its place.  ``opened`` has, for
-    each statement number, the count of open DO loops that end with this statement.  ``refused`` and ``foreign_names``
-    come from :class:`~emulator.language.parser.Parsed`.
+    ``jumps`` has a pair for each branch: the statement number to which the branch leads, and the place of the branch in
+    the source.  ``opened`` has, for each statement number, the count of open DO loops that end with this statement.
+    :class:`~emulator.language.parser.Parsed` defines ``refused`` and ``foreign_names``.
     """
 
     source: str

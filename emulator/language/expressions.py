@@ -71,7 +71,7 @@ class Emitter:
         self.modes.clear()
 
     def group(self) -> None:
-        """Give the product or parenthesized sum that is now in the accumulator the next number in its statement."""
+        """Number the product or parenthesized sum in the accumulator: the first one of a statement is 0, the next 1."""
         self.held, self.groups = self.groups, self.groups + 1
 
     def temporary(self) -> Operand:
@@ -117,7 +117,7 @@ class Emitter:
         return Operand(entry.first, self.subscripts.setdefault(description, len(self.subscripts)))
 
     def subscript(self, argument: Expression) -> tuple[int, int, int]:
-        """Return the parts of a subscript ``c*v+k``: the storage field of v (-1 if there is no v), c and k.
+        """Return a subscript ``c*v+k`` as three integers: the storage field of v (-1 if v is absent), c, and k.
 
         Raise Refused if the subscript has another form.
         """

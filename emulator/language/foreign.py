@@ -16,10 +16,10 @@ from emulator.language.cards import RECORD_MARK
 class ForeignStatement:
     """A statement of another FORTRAN: its name in messages, the language it belongs to, and a replacement for it.
 
-    ``has_body`` is True if the cards after the statement, up to an END, belong to it.  ``declares`` tells which names
-    in the statement may be declared by it as an array, as a function or with a type: ``all`` names, only the names
-    followed by a parenthesis (``(``), or none (empty).  Other statements that use a declared name cannot be checked.
-    ``number`` is IBM's error type, or 0.
+    ``has_body`` is True if the cards after the statement, up to an END, belong to it.  ``declares`` tells which of its
+    names the statement may declare as arrays, as functions or with a type.  The value ``all`` stands for all names,
+    ``(`` for the names that a parenthesis follows, and an empty text for none.  Other statements that use a declared
+    name cannot be checked.  ``number`` is IBM's error type, or 0.
     """
 
     name: str

@@ -1,8 +1,8 @@
 """The interface of IBM's library of 1962: entry points, and the digits of numbers, FORMATs and calls in core storage.
 
 The facts were found by running the library in a simulator with hand-written object code
-(docs/reference/ibm-library.md).  A position of core storage is an integer: its digit, plus FLAG if it has a flag, the
-bit that marks a minus sign or the left end of a field.
+(docs/reference/ibm-library.md).  Here an integer represents a position of core storage: the digit, plus FLAG if the
+position has a flag.  The flag is the bit that marks a minus sign or the left end of a field.
 """
 
 import re
@@ -111,7 +111,7 @@ def call(entry: int, address: int = 0) -> list[int]:
     """Return the twelve positions of an instruction that calls a library routine (BTM) or an input/output verb (BT).
 
     A call copies its operand to the position before the routine's entry.  A routine that works on FAC alone has no
-    operand.  A BT calls it with the position before the entry as the operand, so the copy changes nothing.
+    operand.  It is called by a BT that copies the position before the entry to itself, which changes nothing.
     """
     if entry in ALONE.values():
         return [int(digit) for digit in f"27{entry:05}{entry - 1:05}"]

@@ -98,7 +98,7 @@ class Subscript:
 
 
 def repeats(instruction: Instruction) -> int:
-    """Return how many times an instruction is executed in a row: an ITEM once for each field that it transfers."""
+    """Return how many times in a row an instruction is executed: an ITEM once for each field, others once."""
     return abs(instruction.second) if instruction.operation == ITEM else 1
 
 
@@ -117,7 +117,7 @@ LIST_PASS, LIST_REST = "pass of the list", "rest of the list"
 
 @dataclass(frozen=True, slots=True)
 class Counter:
-    """The meaning of a COUNT instruction: here a statement begins, or a part of it with its own count of executions.
+    """The data of a COUNT instruction, at which a statement begins, or a part of it whose executions are counted.
 
     ``statement`` is an index into :attr:`Program.statements`.  ``begins`` is True at the beginning of the statement,
     and False for the closing of a DO or the body of an indexed list.
@@ -210,12 +210,12 @@ class Flat(NamedTuple):
     """Object code as flat sequences of integers, the form that both engines execute.
 
     The first four sequences have one entry per instruction: operation, address, index into ``table`` (-1 without a
-    subscript), and second operand.  ``table`` holds the eight fields of each :class:`Subscript` in a row.
-    ``targets`` holds the branch tables, each preceded by its length.  ``loops`` holds four numbers per loop: variable,
-    step, limit, and first instruction.  ``begins`` holds 1 for each counter at which a statement begins, 2 for each at
-    a pass of an indexed list, and 0 for others.  ``charges`` holds what each counter adds to the work of the run: 1 if
-    ``begins`` is not 0, and 1 more for every STEPS operations up to the next counter (emulator/numbers/work.py).
-    ``fields`` is the number of fields that a subscript may reach.
+    subscript), and second operand.  ``table`` holds the eight integers of the first :class:`Subscript`, then those of
+    the second, and so on.  ``targets`` holds the branch tables, each preceded by its length.  ``loops`` holds four
+    numbers per loop: variable, step, limit, and first instruction.  ``begins`` holds 1 for a counter at which a
+    statement begins, 2 for one at which a pass of an indexed list begins, and 0 for any other counter.  ``charges``
+    holds what each counter adds to the work of the run: 1 if ``begins`` is not 0, and 1 more for every STEPS operations
+    up to the next counter (emulator/numbers/work.py).  ``fields`` is the number of fields that a subscript may reach.
     """
 
     operations: Sequence[int]

@@ -40,9 +40,10 @@ _PREFIXES = (
 class Source:
     """A statement before parsing.
 
-    ``text`` is the statement without its number (``label``) and without blanks, and ``places`` holds the place of each
-    character of ``text``.  The text of a FORMAT has every column from the opening parenthesis on, also the blank ones.
-    ``kind`` is the start rule of the grammar, ``format`` for a FORMAT, or ``unknown`` if no statement form matches.
+    ``text`` is the statement without its number (``label``) and without blanks, and ``places`` holds the card and
+    column of each character of ``text``.  The text of a FORMAT has every column from the opening parenthesis on, also
+    the blank ones.  ``kind`` is the start rule of the grammar, ``format`` for a FORMAT, or ``unknown`` if no statement
+    form matches.
     """
 
     label: str
@@ -59,7 +60,7 @@ def is_control_card(card: Card) -> bool:
 
 
 def statement_columns(card: Card, first: int = 1) -> str:
-    """Return columns ``first`` to 72 of a card, with blanks from a record mark on, which ends the statement."""
+    """Return columns ``first`` to 72 of a card, with blanks in place of a record mark and the columns after it."""
     text = card.columns(first, LAST_COLUMN)
     mark = None if is_control_card(card) else RECORD_MARK.search(text)
     return text[: mark.start()].ljust(len(text)) if mark else text

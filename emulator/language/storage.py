@@ -33,7 +33,7 @@ class Entry:
     shape: tuple[int, ...] = ()
 
     def element(self, index: int) -> str:
-        """Return the name of an array element, ``index`` fields after the first: ``X(3)`` or ``A(2,1)``."""
+        """Return the name, such as ``X(3)``, of the array element stored ``index`` fields after the first one."""
         # Arrays of two dimensions are stored column by column: the first subscript varies fastest.
         if not self.shape:
             return self.name
@@ -46,9 +46,10 @@ class Entry:
 class Storage:
     """A storage map: the entries in order of address, and the constants.
 
-    ``constants`` pairs the field of each constant with its text in the source.  ``immediates`` does the same for the
+    ``constants`` pairs the field of each constant with its text in the source.  ``immediates`` has such pairs for the
     constants of DO statements, which have no field on the 1620, because they are parts of instructions.  The emulator
-    keeps them after the ``fields`` of the map, where no subscript reaches them.
+    keeps these constants in additional fields after the last field of the map, which no subscript reaches.  ``fields``
+    is the number of fields of the map.
     """
 
     entries: tuple[Entry, ...]
@@ -108,11 +109,11 @@ class Allocator:
     immediates: dict[str, int] = field(default_factory=dict)
 
     def immediate(self, text: str) -> int:
-        """Return an address for the constant of a DO statement, for use until :meth:`final` gives the final address."""
+        """Return a provisional address for the constant of a DO statement, which :meth:`final` converts."""
         return self.immediates.setdefault(text, _PROVISIONAL + len(self.immediates))
 
     def final(self, address: int) -> int:
-        """Return the final address of a field or DO constant, which is known when the whole program is translated."""
+        """Return the final address of a field or DO constant.  All of the program must have been translated."""
         return address if address < _PROVISIONAL else address - _PROVISIONAL + self.used
 
     def place(self, kind: str, name: str, shape: tuple[int, ...] = ()) -> Entry:

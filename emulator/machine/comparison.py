@@ -23,10 +23,10 @@ _DECISIONS = (op.IF, op.IFX, op.SELECT, op.DOTEST)
 class Difference:
     """A value that differs between the studied run and the reference run.
 
-    The statement ``line`` stored the value in its execution number ``time``, counted from 1.  For each run, ``names``
-    has the variable and ``values`` its value.  ``relative`` is the difference divided by the value in the reference
-    run, or None if that value is zero or not a number.  ``bound`` is the largest possible error of the value in the
-    reference run, 0 if nothing was rounded.
+    The statement ``line`` stored the value.  ``time`` is the number of this execution of the statement, counted from 1.
+    For each run, ``names`` has the name of the variable and ``values`` the value stored.  ``relative`` is the
+    difference of the two values divided by the value in the reference run, or None if that value is zero or not a
+    number.  ``bound`` is the largest possible error of the value in the reference run, 0 if nothing was rounded.
     """
 
     line: Line
@@ -161,7 +161,7 @@ class Comparison:
         return self._reference.error(value)
 
     def _uncertainty(self, pc: int, value: Number, bound: Fraction | None) -> str:
-        """Return the message that rounding in the reference run may have given an IF the wrong sign."""
+        """Return a message for an IF: rounding in the reference run may have changed the sign of the tested value."""
         card, name, text = self._line(pc).place.card, self._reference.name, self._reference.text(value)
         size = "any amount" if bound is None else f"1E{math.ceil(_logarithm(bound)):+03d}"
         remedy = "compare with exact arithmetic, or with more digits"

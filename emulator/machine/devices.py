@@ -61,8 +61,8 @@ class Devices:
     state: the state of the run, changed in place.  typed_line: a line that the operator has typed but no statement has
     read.  listed: the addresses in the list of the last input or output statement, if ``lists`` is set.  punched: the
     number of cards punched.  characters: the number of characters typed, counting the end of a line as one.  fields:
-    the count of numbers read ("E<") and written ("E>") for each kind of field.  cut: for each punched card, its numbers
-    before its fields truncated them.
+    the count of numbers read ("E<") and written ("E>") for each kind of field.  cut: for each punched card, the numbers
+    written on it, as they were before the fields of the card truncated them.
     """
 
     program: Program

@@ -27,8 +27,9 @@ class Ending:
     computed GO TO before it.  The other fields depend on the kind:
 
     - stop, end: normal ends, without other fields.
-    - hopper: a normal end.  ``line`` is the READ that found the hopper empty.  ``any_read`` is True if the options
-      allow this end at any READ, not only at the READ that begins a data set.  A note after the run then reports it.
+    - hopper: a normal end.  ``line`` is the READ that found the hopper empty.  ``any_read`` is True if the option
+      ``hopper`` allows a run to end in this way at any READ, and not only at one that begins a data set.  A note after
+      the run then reports the empty hopper.
     - limit: ``count`` is the limit.  ``costly`` is the part of the work that was done by operations that take longer
       than a statement.  ``line`` is set if a single operation would exceed the limit.  ``loop`` holds the statements
       executed last, in the order of their cards.  ``repeats`` is True if each statement of ``loop`` was executed more
@@ -41,7 +42,7 @@ class Ending:
     - mode: the ``name`` of the field and the ``mode`` of its number.  If a FORMAT is involved, ``format`` is its
       number, and ``field`` is the specification in it that does not fit the mode, or None if the FORMAT has no fields.
     - record: a record too long for IBM's library of 1962 (ERROR F9).  ``format`` holds the number of its FORMAT.
-    - undecided: ``trouble`` says what the numbers cannot decide.
+    - undecided: the arithmetic cannot represent a value or determine its sign.  ``trouble`` is the explanation.
     - input: ``trouble`` says what is wrong with the deck.
     - operator: the operator stopped the run; ``trouble`` says so.
     """
@@ -172,7 +173,7 @@ def ended_by(
     subscripts: tuple[int, ...],
     costly: int,
 ) -> Ending:
-    """Return the ending of a run for the reason, such as AT_BOUNDS, with which the interpreter or the kernel returned.
+    """Return the ending of a run for the reason, such as AT_BOUNDS, that the interpreter or the kernel returned.
 
     The run ended at the instruction ``at``.  ``decision`` is the instruction, counted from 1, of the last IF or
     computed GO TO before it.  ``address`` is the storage field that the instruction ``at`` uses, and for AT_UNDEFINED,

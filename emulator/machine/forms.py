@@ -158,7 +158,7 @@ class Input(_Walk):
 
 @dataclass
 class Output1962(Output):
-    """The execution of an output statement with the records of IBM's library of 1962 (docs/reference/ibm-library.md).
+    """The execution of an output statement as by IBM's library of 1962 (docs/reference/ibm-library.md).
 
     ``room`` is the number of columns of the device.  ``_blank`` is True while the record has received no columns.
     ``_after_error`` is True after the record of an error code, until columns are written.  ``_has_list`` is True after

@@ -99,7 +99,8 @@ class Result:
     characters_typed
         The characters typed, counting the end of a line as one.
     numbers
-        Pairs of a kind of field and the count of numbers it read (``E<``) or wrote (``E>``).
+        Pairs of a text and a count.  For E fields, the text ``E<`` stands for the numbers read, ``E>`` for those
+        written; ``F<`` or ``I>`` stand for the numbers in other kinds of fields.
     uncut
         With the option ``uncut``, the floating-point numbers of each punched card with all their digits.
     """

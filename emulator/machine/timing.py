@@ -1,9 +1,10 @@
 """The time a run would take on a 1620 Model 1: the count of each operation multiplied by its time.
 
 The times were measured by running small programs with IBM's library of 1962 in a simulator that adds the published time
-of each instruction (A26-5706-3, X26-5743-2; ``python -m modern.bench.ibm1962 times``).  The object code and the library
-are those of a deck that IBM's own compiler punched.  :data:`MODEL` bounds the systematic error.
-Only the times of functions and general powers are estimates, because they do not occur in the deck.
+of each instruction (A26-5706-3, X26-5743-2; ``python -m modern.bench.ibm1962 times``).  The model's object code and
+library are those of the only known deck that IBM's own compiler punched.  :data:`MODEL` bounds the systematic error.
+Only the times of library functions and of powers A**B with a floating-point B, which do not occur in that deck, are
+estimates.
 
 The reader reads 250 cards a minute, the punch punches 125, and the typewriter types 10 characters a second (X26-5743-2
 p. 1 and 3).
@@ -28,7 +29,7 @@ TYPEWRITER_SECONDS = 1 / 10
 
 @dataclass(frozen=True, slots=True)
 class Cost:
-    """The milliseconds that an operation takes, its row in the time table, and whether the time is an estimate."""
+    """The milliseconds that an operation takes, its row in the time table, and True if the time is an estimate."""
 
     milliseconds: float
     cause: str

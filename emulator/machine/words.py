@@ -49,7 +49,7 @@ def read_action(line: str) -> tuple[int | None, Action]:
 
 
 def action(word: str, operands: list[str]) -> Action:
-    """Return the action for a word other than ENTER and its operands.  Raise ValueError if they are invalid."""
+    """Return the action that a word other than ENTER and its operands denote.  Raise ValueError if they are invalid."""
     # Operands are an optional CARD, an optional number and, for SWITCH, ON or OFF.
     card = word in ("BREAK", "CLEAR") and operands[:1] == ["CARD"]
     numbers = [_number(text) for text in operands[card : card + 1]]

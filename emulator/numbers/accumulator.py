@@ -41,7 +41,7 @@ def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
 
 
 def subtract(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> State:
-    """Return the accumulator (FAC) minus a number: FAC plus the negated number, where a zero is not negated."""
+    """Return the accumulator (FAC) minus a number: FAC plus the negated number.  A number that is 0 is not negated."""
     return add(ma, ea, -mb, eb, rules)
 
 

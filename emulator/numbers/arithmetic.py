@@ -1,10 +1,10 @@
 """Decimal floating point as the 1620's subroutines computed it: pure functions on integers under named profiles.
 
 A number is a pair (mantissa, exponent) with the value ``mantissa * 10**(exponent - P)``.  The mantissa has P digits,
-the first of which is not zero, and the exponent is one of -99 to +99 (C26-5619 p. 13, 38).  The decimal point stands
-before the first digit.  Zero is (0, -99), as it is printed.  Minus zero, which the machine marked with a flag, is (0,
-MINUS_ZERO).  A field in which nothing was stored is (0, UNDEFINED).  A field with a fixed-point number holds its value
-and the exponent FIXED_POINT.  The operations here may return an exponent out of range, which
+the first of which is not zero, and the exponent is an integer from -99 to +99 (C26-5619 p. 13, 38).  The decimal point
+stands before the first digit.  Zero is (0, -99), as it is printed.  Minus zero, which the machine marked with a flag,
+is (0, MINUS_ZERO).  A field in which nothing was stored is (0, UNDEFINED).  A field with a fixed-point number holds its
+value and the exponent FIXED_POINT.  The operations here may return an exponent out of range, which
 emulator/numbers/accumulator.py then handles.
 
 The functions use only integers and loops, so that numba can compile them, and ``rules`` is a tuple of integers for
@@ -37,8 +37,8 @@ class Rules(NamedTuple):
     - ``digits``: the number of digits of a mantissa, P.
     - ``limit``: ``10**P``, one more than the largest mantissa.
     - ``least``: ``10**(P - 1)``, the smallest normalized mantissa.
-    - ``guard``: the digits beyond P that the smaller operand of a sum keeps.
-    - ``sticky``: digits of the smaller operand beyond the guard digits still count as a positive fraction in rounding.
+    - ``guard``: the number of digits beyond P that the smaller operand of a sum keeps.
+    - ``sticky``: rounding takes into account whether the smaller operand has nonzero digits beyond the guard digits.
     - ``round_sums``, ``round_products``, ``round_quotients``: round the result half up instead of truncating it.
     - ``as_1962``: signs of zeros, whole powers, conversions to fixed point, input, output and error codes follow IBM's
       library of 1962 (docs/reference/ibm-library.md) instead of FORTRAN II-D.
@@ -62,7 +62,7 @@ class Rules(NamedTuple):
 
 
 def drawn(rules: Rules, count: int) -> Rules:
-    """Return the rules with the random number by which operation ``count`` of a run rounds its result."""
+    """Return a copy of the rules that holds the random number for a run's operation number ``count``, from 1 on."""
     digits, limit, least, guard, sticky, sums, products, quotients, as_1962, random, key, _ = rules
     number = draw(key, count)
     return Rules(digits, limit, least, guard, sticky, sums, products, quotients, as_1962, random, key, number)
@@ -120,7 +120,8 @@ def add(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
 def add_guarded(ma: int, ea: int, mb: int, eb: int, rules: Rules) -> tuple[int, int]:
     """Return the sum of two numbers that are not zero, computed with ``guard`` digits beyond P.
 
-    With ``sticky`` the lost digits still count as a fraction, so that the sum is rounded like the exact sum.
+    With ``sticky``, rounding takes into account whether the dropped digits were zero, so that the sum is rounded like
+    the exact sum.
     """
     digits, base, guard, sticky, rounding = rules.digits, rules.limit, rules.guard, rules.sticky, rules.round_sums
     if ea < eb:
@@ -329,7 +330,8 @@ FAMILIES = tuple(f"{family}:P" for family in _FAMILIES)
 def size_in(name: str, count: str, least: int, most: int, unit: str) -> int:
     """Convert ``count``, the number of digits or bits in the name of an arithmetic, to an integer.
 
-    Raise ArgumentError, whose message names the ``unit``, if it is not an integer from ``least`` to ``most``.
+    Raise ArgumentError if it is not an integer from ``least`` to ``most``.  ``unit`` is the word for digits or bits in
+    the message.
     """
     if not (count.isdecimal() and count.isascii() and len(count) < 10 and least <= int(count) <= most):
         raise ArgumentError(f"{name[:40]}: the number of {unit} must be {least} to {most}")
@@ -341,8 +343,8 @@ def profile(name: str) -> Profile:
     digits P, such as ``rounding:8``.
 
     ``guarded:P`` differs from ``truncating:P`` in sums only: the smaller operand keeps one more digit during the
-    addition.  ``rounding:P`` gives the exact result of + - * / rounded half up in magnitude.  Raise ArgumentError for
-    any other name.
+    addition.  In ``rounding:P``, the result of + - * / is the exact result, rounded half up in magnitude.  Raise
+    ArgumentError for any other name.
     """
     expect(name, str, "name")
     if name in PROFILES:

@@ -2,8 +2,8 @@
 
 Only the number system itself knows the representation of its numbers.  Three rules hold for every system:
 
-- Input uses all digits of the columns or of the constant.  Output truncates the decimal digits of a number to those of
-  the field and never rounds (C26-5619 p. 38-40).
+- Input uses all digits of the columns or of the constant.  Output truncates a number to the decimal digits that its
+  field holds and never rounds (C26-5619 p. 38-40).
 - An error that the 1620's subroutines report with a code is reported with the same code (emulator.errors.explanations).
 - A result that a system cannot represent or decide ends the run with :class:`Undecided`.  Such a result is never
   guessed.
@@ -114,7 +114,7 @@ class Numbers(ABC):
 
     @abstractmethod
     def function(self, name: str, value: Number) -> tuple[Number, str]:
-        """Return SIN, COS, ATAN, EXP, LOG or SQRT of a number, and an error code or "".  May raise Undecided."""
+        """Return the library function ``name`` of a number, and an error code or "".  May raise Undecided."""
 
     @abstractmethod
     def power(self, base: Number, exponent: Number) -> tuple[Number, str]:
@@ -139,7 +139,7 @@ class Numbers(ABC):
         """
 
     def text(self, value: Number) -> str:
-        """Return the number as decimal text for a person.  Dots follow the digits if further digits are omitted."""
+        """Return the number as decimal text for a person.  Dots follow the digits if the text omits further digits."""
         exact = self.exact(value, SHOWN + 5)
         if exact is None:
             return str(value)

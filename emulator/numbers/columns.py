@@ -1,8 +1,8 @@
 """Convert numbers to card columns and back, on integers, by the rules of emulator/numbers/fields.py.
 
 Columns are a mutable sequence of ASCII codes.  The functions use only integers and loops, so that numba can compile
-them. The interpreter and the compiled engine share these functions.  emulator/numbers/fields.py contains the message
-for each status.
+them. The interpreter and the compiled engine share these functions.  Each status that the functions return is a number,
+for which emulator/numbers/fields.py has the message.
 """
 
 from __future__ import annotations
@@ -273,7 +273,7 @@ def write_floating(
     exponent: int,
     rules: Rules,
 ) -> tuple[int, int]:
-    """Write an E field (``lettered``) or an F field.  Return the column after it, and 1 if it used E14.8 instead."""
+    """Write an E field if ``lettered``, else an F field.  Return the next column, and 1 if E14.8 was used, else 0."""
     if lettered:
         end = write_e(columns, at, width, decimals, mantissa, exponent, rules)
     else:

@@ -196,14 +196,14 @@ def write_floating(
     exponent: int,
     rules: Rules,
 ) -> int:
-    """Write an E field (``lettered``) or an F field.  Return the column after it, or -1 if the number does not fit."""
+    """Write an E field if ``lettered``, else an F field.  Return the next column, or -1 if the number does not fit."""
     if lettered:
         return write_e(columns, at, width, decimals, mantissa, exponent, rules)
     return write_f(columns, at, width, decimals, mantissa, exponent, rules)
 
 
 def write_fixed(columns: MutableSequence[int], at: int, width: int, size: int, negative: bool) -> int:
-    """Write an integer into a field of w columns, of which the first is reserved for the sign.  Return the next column.
+    """Write an integer into a field of w columns, the first of which is for the sign.  Return the next column.
 
     The field shows the last four digits of the integer, or the last w - 1 digits if w < 5.
     """

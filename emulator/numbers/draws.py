@@ -44,14 +44,14 @@ def key_of(seed: int) -> int:
 
 
 def draw(key: int, count: int) -> int:
-    """Return the random number for operation ``count`` of a run, from the key of the run's seed."""
+    """Return the random number for a run's operation number ``count``, from the key of the run's seed."""
     return mix(mix(count & 0xFFFFFFFF) ^ key) * DRAWS >> 32
 
 
 def randomly(size: int, unit: int, lost: int, rule: int, drawn: int) -> int:
     """Return ``size / unit``, rounded at random to one of the neighbouring integers.  ``size`` must not be negative.
 
-    ``lost`` is 0 if ``size`` is the exact value.  It is 1 if the exact value is larger, by less than ``unit / DRAWS``.
+    ``lost`` is 0 if ``size`` is exact.  It is 1 if the exact value exceeds ``size`` by less than ``unit / DRAWS``.
     """
     whole = size // unit
     rest = size - whole * unit

@@ -20,7 +20,7 @@ Exact = Rational | RootSum
 
 
 class _SignedZero(int):
-    """Zero with a minus sign.  The result of any operation except negation is a number without this sign."""
+    """A zero with a minus sign.  No operation except negation has such a zero as its result."""
 
 
 _MINUS = _SignedZero(0)
@@ -169,7 +169,7 @@ def _too_long(base: Exact, count: int) -> bool:
 
 
 def _length(value: Exact) -> int:
-    """Return the total number of bits of all integers of which a number consists."""
+    """Return the number of bits of all numerators, denominators and radicands in a number together."""
     return sum(n.bit_length() + c.numerator.bit_length() + c.denominator.bit_length() for n, c in terms_of(value))
 
 

@@ -2,9 +2,9 @@
 
 The result is the exact value, truncated to the profile's digits, or rounded if the profile rounds products (for SQRT:
 quotients) or rounds at random.  SIN, COS, ATAN, EXP, LOG and SQRT are described in C26-5619 p. 63 and 66.  Executing
-IBM's code showed that SQRT truncates the exact value.  That the other functions do so is an assumption (OPEN-QUESTIONS
-9).  Error codes and results for invalid arguments follow GOTRAN's table F1 to F6 (C26-5594 p. 28), and IBM FORTRAN II-D
-for SQRT of a negative number.
+IBM's code showed that SQRT truncates the exact value.  That the other functions truncate the exact value too is an
+assumption (OPEN-QUESTIONS 9).  Error codes and results for invalid arguments follow GOTRAN's table F1 to F6 (C26-5594
+p. 28), and IBM FORTRAN II-D for SQRT of a negative number.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ LONG = 24
 
 @dataclass(frozen=True, slots=True)
 class Value:
-    """The result of a function, and the error code that is typed ("F1" to "F6", "E3" and so on) or an empty string."""
+    """The result of a function, and the error code that the machine types (such as "F1" or "E3") or an empty string."""
 
     mantissa: int
     exponent: int
@@ -216,8 +216,8 @@ def _context(digits: int) -> Any:
 def _cut_value(compute: Callable[[Any], Any], rules: Rules, more: int) -> Value:
     """Compute a value with increasing precision until its first P digits are certain (Ziv's strategy).
 
-    ``more`` is the number of digits that the computation itself loses.  If 200 extra digits do not decide the rounding,
-    the value is assumed to equal a P-digit number exactly.
+    ``more`` is the number of additional digits that compensate for the rounding errors of the computation.  If 200
+    extra digits do not decide the rounding, the value is assumed to equal a P-digit number exactly.
     """
     from mpmath.libmp import to_digits_exp
 
@@ -245,7 +245,7 @@ def _cut_value(compute: Callable[[Any], Any], rules: Rules, more: int) -> Value:
 
 
 def _cut(number: int, power_of_ten: int, rules: Rules) -> tuple[int, int]:
-    """Return the number ``number * 10**power_of_ten`` with P digits, rounded like products."""
+    """Return ``number * 10**power_of_ten`` as mantissa and exponent, with P digits, rounded as products are."""
     extra = _RANDOM if rules.random else 1
     size, exponent = cut_decimal(abs(number), power_of_ten, rules.digits + extra)
     if rules.random:

@@ -28,7 +28,7 @@ _RANGE = 10**4
 
 
 def _within_range(operation: Callable[..., Any]) -> Callable[..., Any]:
-    """Return a function that does the operation, and on overflow raises Undecided with the range of numbers."""
+    """Return a function that performs the operation and raises Undecided, with the range of numbers, on overflow."""
 
     @wraps(operation)
     def checked(*operands: Any) -> Any:

@@ -1,9 +1,10 @@
 """Several stochastic runs in step: each number holds its values in all N runs, and all runs take the same branches.
 
-The runs have different seeds and share cards and branches, as in CADNA.  By default an IF takes the branch of the mean,
-or the branch for zero if the number is a computational zero (:mod:`emulator.numbers.significance`), as CADNA's order
-relations do.  With ``majority`` it takes the branch of most runs.  A conversion to an integer takes the integer of most
-runs.  A printed number is the mean, truncated to its field.
+The runs have different seeds and share cards and branches, as in CADNA.  By default an IF takes the branch for the sign
+of the mean, or the branch for zero if the number is a computational zero (:mod:`emulator.numbers.significance`), as
+CADNA's order relations do.  With ``majority`` it takes the branch for the sign that the value has in most runs.  A
+conversion to an integer gives the integer that results in most runs.  A printed number is the mean, truncated to its
+field.
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ def _operation(name: str) -> Callable[..., Values]:
 class SampledNumbers(Numbers):
     """An arithmetic whose numbers are tuples: the values in N random runs that take the same branches.
 
-    ``choice``, ``mean`` or ``majority``, is the rule for the branch of an IF.  ``on_write`` is called with the columns
+    ``choice`` is the rule for the branch of an IF: ``mean`` or ``majority``.  ``on_write`` is called with the columns
     and the values of each printed number.
     """
 

@@ -1,8 +1,8 @@
 """Numbers with error bounds: next to each number the program keeps a more precise value, its shadow.
 
-The shadow shows how far rounding has moved a number x.  This shadow is the number y that the same operations compute
-from the shadows of the operands.  They compute it in binary floating point of 2b + 64 bits, where b is the number of
-bits of x.  Let t be the number that exact arithmetic would hold at the same place of the program.  Then
+The shadow of a number x shows how far rounding has moved x.  It is the number y that the same operations compute from
+the shadows of their operands.  They compute it in binary floating point of 2b + 64 bits, where b is the number of bits
+of x.  Let t be the number that exact arithmetic would hold at the same place of the program.  Then
 
     |x - t| <= |x - y| + |y - t|.
 

@@ -6,8 +6,8 @@ library functions and powers round the exact result once.  FLOAT, cards and cons
 decimal numbers are truncated, and binary numbers are rounded to nearest.  Binary numbers have the range of ``mp:BITS``,
 so ``stochastic:53b:SEED`` has the precision of binary64 and a larger range.
 
-``stochastic:8:1-10`` runs the seeds 1 to 10 in step (:mod:`emulator.numbers.sampled`).  Of three runs in step, the
-third rounds as the opposite of the second, as in CADNA.
+``stochastic:8:1-10`` runs the seeds 1 to 10 in step (:mod:`emulator.numbers.sampled`).  If there are three runs in
+step, the third rounds in the opposite direction to the second, as in CADNA.
 """
 
 from __future__ import annotations

@@ -42,11 +42,11 @@ class Addresses:
         return self.labels[str(label)] - FIELD + 1
 
     def format(self, label: int) -> int:
-        """Return the last position of the address that is stored in the field of a FORMAT's statement number."""
+        """Return the position of the last digit of the address that the field of a FORMAT's statement number holds."""
         return self.labels[str(label)] - 3
 
     def operand(self, call: str, field: int, subscript: int, at: int) -> str:
-        """Return an instruction with its operand, after code that computes the subscript of the operand, if it has one.
+        """Return an instruction with its operand, preceded by the code that computes the operand's subscript, if any.
 
         Parameters
         ----------
@@ -79,7 +79,7 @@ class Addresses:
         return text + call + address(self.units(variable))
 
     def _steps(self, part: Subscript) -> list[tuple[str, int]]:
-        """Return the steps that compute a subscript, each with its code and the position of the number to subtract."""
+        """Return the steps that compute a subscript: for each, its code and the position of the number to subtract."""
         steps = []
         if part.v2 >= 0:
             code = self._product(part.v2, part.rows * part.c2)

@@ -2,8 +2,9 @@
 
 The cards of IBM's loader precede the program in a deck.  A card of the program holds four control digits, the length of
 its code, the code and a record mark.  The loader stores the code of each card after the code of the previous card, and
-advances by the length.  A card with the lengths of program and data follows the code.  The symbol table comes next,
-with six fields on each card, from the top of core storage downward.  Columns 77 to 80 number all cards of a deck.
+advances by the length.  A card with the bounds of the program, the data and the symbol table follows the code.  The
+symbol table comes next, with six fields on each card, from the top of core storage downward.  Columns 77 to 80 number
+all cards of a deck.
 """
 
 from collections.abc import Iterator, Sequence
@@ -107,7 +108,7 @@ def _constant(text: str) -> str:
 
 
 def with_library(cards: Sequence[str], library: Sequence[str], source: str) -> list[str]:
-    """Replace the program in a deck with IBM's library by the cards of another program.
+    """Return the deck ``library``, which includes IBM's library, with its program replaced by ``cards``.
 
     The data cards after the library are left out.  Raise DeckError if ``library`` is not a deck with the library.
     """

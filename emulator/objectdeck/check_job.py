@@ -6,9 +6,10 @@ This script needs nothing but Python 3.  ``hull1620 export-job`` writes it as ch
     python3 check.py join compile.cards pdq.txt program.cards pdq-fixed.txt
     python3 check.py compare expected.cards punched.cards
 
-``disk`` converts a disk in text form (sector number, comma, 105 digits) to the form that SIMH attaches.  ``join`` puts
-decks behind one another.  ``compare`` lists the differences by class.  ``compare`` exits with 1 if a difference belongs
-to no known class, if the order differs, or if no card was punched.  After an error, every command exits with 2.
+``disk`` converts a disk image from text (on each line a sector number, a comma and 105 digits) to the form that SIMH
+reads.  ``join`` puts decks behind one another.  ``compare`` lists the differences by class.  ``compare`` exits with 1
+if a difference belongs to no known class, if the order differs, or if no card was punched.  After an error, every
+command exits with 2.
 """
 
 from __future__ import annotations
@@ -99,7 +100,7 @@ def differences(expected: str, punched: str) -> list[str]:
 
 
 def compare(expected_name: str, punched_name: str) -> int:
-    """Print the differences of two decks by class.  Return 1 for an unknown difference, another order or no cards."""
+    """Print the differences of two decks by class.  Return 1 for an unknown class, another order or no punched card."""
     expected, punched = deck(expected_name), [card[:77].rstrip() for card in deck(punched_name)]
     common = Counter(expected) & Counter(punched)
     classes: Counter[str] = Counter()

@@ -77,10 +77,10 @@ def floating_field(mantissa: int, exponent: int) -> str:
 
 
 def card_text(positions: Iterable[int]) -> str:
-    """Return the characters that stand on a card for digits of core storage, given as integers."""
+    """Return the characters by which a card represents the given positions of core storage."""
     return "".join((FLAGGED if position & FLAG else PLAIN)[position % FLAG] for position in positions)
 
 
 def alphameric(name: str) -> str:
-    """Return a name as a storage field: two-digit codes of five characters, flagged at the first digit."""
+    """Return a name as a storage field: the two-digit codes of its five characters, with a flag on the first digit."""
     return flagged("".join(f"{character_code(character):02d}" for character in f"{name:<5}"))

@@ -59,10 +59,10 @@ def generate(program: Program, core: int = CORES[-1]) -> ObjectProgram:
 class _Generator:
     """The state of the translation of one program to machine code.
 
-    ``places`` holds the position of the code for each instruction of the emulator.  ``formats`` is the number of
-    FORMATs translated so far.  If an instruction does not use all of its twelve digits, IBM's compiler left old digits
-    of its buffer in the unused ones.  A PAUSE therefore contains the last ten digits of the last call (``operands``),
-    and the instruction that begins a DO may contain one digit of an earlier address (``unused``).
+    ``places`` holds, for each instruction of the emulator's object code, the position of its machine code.  ``formats``
+    is the number of FORMATs translated so far.  If an instruction does not use all of its twelve digits, IBM's compiler
+    left old digits of its buffer in the unused ones.  A PAUSE therefore contains the last ten digits of the last call
+    (``operands``), and the instruction that begins a DO may contain one digit of an earlier address (``unused``).
     """
 
     program: Program
@@ -144,7 +144,7 @@ class _Generator:
     def _with_bound(self, immediate: str, direct: str, target: str, bound: int, wide: bool = False) -> str:
         """Return an instruction that combines the field at ``target`` with a constant or variable bound of a DO.
 
-        ``immediate`` and ``direct`` are its operation codes for a constant and for a variable.
+        The instruction has the operation code ``immediate`` if the bound is a constant, ``direct`` if it is a variable.
         """
         if bound < self.program.storage.fields:
             return direct + target + address(self.addresses.units(bound))
@@ -264,7 +264,7 @@ class _Generator:
             self._put(self.addresses.operand(call, instruction.address + element, instruction.subscript, self.at))
 
     def _last_pass(self, loops: tuple[int, ...]) -> str:
-        """Return code that announces a list's last item to the library if all ``loops`` are in their last pass."""
+        """Return code that tells the library to expect a list's last item if all ``loops`` are in their last pass."""
         length = 48 * len(loops) + 12
         past = self.at + length
         text = ""

@@ -6,8 +6,9 @@ first moved by one digit.  The exponent is then halved.
 
 The digits come from subtraction alone.  A number ``b`` is 5 at first.  The routine subtracts ``b`` from five times the
 mantissa as long as the result stays positive, and adds ten to ``b`` after each subtraction.  Then ``b`` moves one digit
-to the right, with a zero inserted before its last digit, and the same steps give the next digit of the root.  The
-digits of ``b`` before the 5 are those of the root.  The routine needs the 1620's indirect addressing.
+to the right, with a zero inserted before its last digit, and the same steps give the next digit of the root.  At the
+end, the digits of ``b`` before its last digit, the 5, are those of the root.  The routine needs the 1620's indirect
+addressing.
 """
 
 from emulator.objectdeck import digits as d

@@ -54,8 +54,8 @@ class Formula:
     computed
         The function that computes the formula, with the operations in their original order.
     spec
-        A function that has the same value in real arithmetic, in a simpler or independent form.  If no such form
-        exists, it is ``computed``.
+        A function with the same value in real arithmetic, which computes it in a simpler or independent way.  If there
+        is no such way, ``spec`` is the function ``computed``.
     most
         The largest absolute value of an argument on the input cards.
     condition

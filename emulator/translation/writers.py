@@ -57,7 +57,7 @@ def layout(spec: FormatSpec, is_read: bool) -> tuple[str, int]:
 class Writer(ABC):
     """The base class of the writers.
 
-    If ``every_read_ends`` is True, an empty hopper is a normal end at any READ.
+    If ``every_read_ends`` is True, the written program ends normally at any READ that finds the hopper empty.
     """
 
     program: Program
@@ -383,7 +383,8 @@ WRITERS: dict[str, type[Writer]] = {"c": CWriter, "fortran": FortranWriter}
 def translated(deck: Deck, language: str, every_read_ends: bool = True) -> str:
     """Translate a FORTRAN deck of the 1620 to C or Fortran, and return the source text.
 
-    An empty hopper is a normal end at the READ that begins a data set, and at every READ if ``every_read_ends`` is
-    True.  Raise CompileError, with card and column, for a deck that does not compile.
+    The translated program ends normally if the READ that begins a data set finds the hopper empty.  If
+    ``every_read_ends`` is True, this holds for every READ.  Raise CompileError, with card and column, for a deck that
+    does not compile.
     """
     return WRITERS[language](compile_deck(deck), every_read_ends).text()
