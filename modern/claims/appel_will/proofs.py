@@ -127,7 +127,7 @@ def fewer_pairs() -> Proof:
     )
 
 
-@proves("appel-will.27")
+@proves("appel-will.27", conclusion="each point of the hull is on the inner side of all planes of the hull")
 @proves("appel-will.79", conclusion="the hull stays the same if points inside it are added")
 def points_of_hull() -> Proof:
     return Proof.of(
