@@ -2,9 +2,11 @@
 
 ``import hull1620`` is fast, because each name is loaded on first use.
 
-- ``convex_hull`` computes a hull by Butler's procedure in any arithmetic; ``exact_hull`` proves an exact hull.
+- ``convex_hull`` computes a hull by Butler's procedure in any arithmetic; ``exact_hull`` computes an exact hull and
+  proves it.
 - ``Hull`` is the result of both functions, with numpy arrays, exact volume and area, drawings and files.
-- ``digital_hull`` fills the hull of voxels; ``voxel_hull`` computes their exact hull in physical coordinates.
+- ``digital_hull`` finds all voxels in the hull of given voxels; ``voxel_hull`` computes the exact hull of voxels in
+  physical coordinates.
 - ``read_volume`` reads voxels from a file, such as NRRD, NPY, NIfTI or DICOM.
 - ``read_points`` reads points from a file of any supported format; ``data_deck`` writes points on cards.
 - ``read_deck`` reads cards from a file; ``compile_deck`` compiles a FORTRAN program.
@@ -12,9 +14,9 @@
 - ``EmulatorError`` is the base class of the errors that invalid input raises.
 - ``Machine`` runs a program on the 1620.  Its ``Options`` include the arithmetic, which ``numbers`` returns by name.
 - ``run_hull`` applies the programs of 1963 to a data deck; ``read_hull`` reads the hull from the punched cards.
-- ``diverge`` finds the first values and decisions of a program that differ in two arithmetics.
+- ``diverge`` runs a program in two arithmetics, and finds the first values and decisions that differ between the runs.
 - ``Plan``, ``Cell`` and ``run_study`` compare thousands of computed hulls with the exact hull.
-- ``reproduce`` computes the printed results and compares them with the print.
+- ``reproduce`` computes the results that the thesis and the papers print, and compares them with the print.
 """
 
 import os

@@ -163,7 +163,7 @@ class Hull:
     def equations(self) -> Floats:
         """The outward unit normal and the offset of each of ``simplices``, shape (m, 4), as in scipy's ConvexHull.
 
-        Inside the hull normal @ x + offset <= 0.  The equations in ``faces`` are exact.
+        A point x of the hull has normal @ x + offset <= 0, up to rounding.  The equations in ``faces`` are exact.
         """
         rows: list[Floats] = []
         for (a, b, c, d), polygon in zip(self._mesh.planes(self.record), self._mesh.faces, strict=True):
@@ -196,7 +196,7 @@ class Hull:
 
     @cached_property
     def area(self) -> Area:
-        """The area of the surface; for a polygon the area of one side.
+        """The area of the surface; for a polygon, the area that it encloses, counted once.
 
         The value is the nearest double, and ``area.digits`` is the area to 50 significant digits.  The area is a sum of
         square roots, so unlike ``volume`` it need not be a fraction.  The digits are exact if the area of every face is
@@ -226,13 +226,13 @@ class Hull:
         Raises
         ------
         ExportError
-            The distance is invalid or too large for this solid.
+            The distance is invalid, or too large for this solid, as ``modern.geometry.coplanar`` defines.
 
         Notes
         -----
         ``modern.geometry.coplanar`` defines which faces are joined.  ``record.coplanar`` of the result has the number
-        of faces before joining, the largest distance of a vertex from its plane, and the next distance that would join
-        more faces.
+        of faces before joining, the largest distance of a vertex from its plane, and the smallest distance with which
+        more faces would be joined.
         """
         return Hull(coplanar(self.record, within)[0])
 

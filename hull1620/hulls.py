@@ -50,9 +50,9 @@ def convex_hull(
         ``truncating1962``, ``truncating:P``, ``guarded:P``, ``rounding:P``, ``stochastic:P:SEED`` or
         ``stochastic:BITSb:SEED``.
     epsilon : number or str, optional
-        The tolerance e of the thesis's chapter 7: values of a plane equation from -e to e count as zero.
-        ``"rel:1e-9"`` is relative to the coefficients of the equation.  If e is so large that the faces do not form a
-        closed surface, there is no hull.
+        The tolerance e of the thesis's chapter 7: the value of a plane's equation at a point counts as zero if it is
+        from -e to e.  ``"rel:1e-9"`` is relative to the coefficients of the equation.  If e is so large that the faces
+        do not form a closed surface, there is no hull.
     translate : bool, optional
         Move the origin to a point C inside the hull first, as chapter 7 of the thesis proposes.
     history : bool, optional
@@ -62,7 +62,7 @@ def convex_hull(
         ``fast``.  The default uses them for many points.
     on_refusal : {"raise", "return"}, optional
         Raise HullRefused, or return the incomplete result, if the procedure finds no hull in this arithmetic.  In
-        ``float64`` it finds no hull for most doubles.
+        ``float64`` the procedure finds no hull for most point sets whose coordinates are doubles.
     text : bool, optional
         Follow the text of chapter 3 of the thesis, not the listing, in the two steps in which they differ.
 
@@ -151,7 +151,7 @@ def draw(
 
 
 def save(points: Points | Hull, path: Path, digits: int | None = None) -> None:
-    """Write a hull, or the exact hull of points, to a file; the options are those of ``Hull.save``."""
+    """Write a hull, or the exact hull of points, to a file; see ``Hull.save``."""
     _hull(points).save(path, digits)
 
 
@@ -218,7 +218,7 @@ def run_hull(deck: Deck, layers: Sequence[str] = (), options: Options | None = N
     layers : sequence of str, optional
         Optional sets of changes to the listings, such as ``corrected``, which corrects faults of the originals.
     options : Options, optional
-        The options of the machine: arithmetic, core memory, limit of statements, and others.
+        The options of the machine: arithmetic, core memory, limit of work, and others.
 
     Returns
     -------

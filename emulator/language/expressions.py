@@ -237,7 +237,8 @@ class Emitter:
 
         ``waiting`` is the left operand while it is in a field.  A right operand that must be computed needs the
         accumulator, so the left operand stays in a field, if necessary a temporary one, and is then combined with the
-        accumulator.  ``minus`` is True if the negative of the left operand is held, ``negative`` if that of the right.
+        accumulator.  ``minus`` is True if the code holds the negative of the left operand, ``negative`` if it holds
+        that of the right operand.
         """
         first, minus = _unsigned(expression.first)
         minus ^= isinstance(expression, Sum) and expression.minus

@@ -179,7 +179,7 @@ class Program:
         return flatten(self)
 
     def uses(self, *verbs: str) -> bool:
-        """Return True if the program has an input or output statement with one of these verbs."""
+        """Return True if the program has an input or output statement with one of these verbs, such as READ."""
         return any(i.operation == BEGIN and self.verbs[i.address] in verbs for i in self.code)
 
     def line_at(self, pc: int) -> Line:

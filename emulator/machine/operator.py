@@ -36,8 +36,8 @@ class _Line:
 class Operator:
     """An operator who presses START at every halt and types the lines of ``keyboard``.
 
-    A subclass sets ``present`` to True if it can type a bad line again and needs each typed line at once (see
-    ``retypes`` and ``by_lines`` of :class:`emulator.machine.session.Session`).
+    A subclass sets ``present`` to True if its operator can type another line in place of an invalid one, and must see
+    each line of the typewriter at once (see ``retypes`` and ``by_lines`` of :class:`emulator.machine.session.Session`).
     """
 
     present = False

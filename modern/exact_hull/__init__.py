@@ -1,8 +1,8 @@
 """The exact convex hull of points in space, with a proof.  The project compares all its other hulls with this one.
 
-``exact_hull(points)`` uses integers and shares no code with the procedures that it judges.  ``certify`` proves a result
-from the points alone, with code that takes no part in constructing it.  ``exact_hull`` never returns an unproved
-result.
+``exact_hull(points)`` uses integers and shares no code with the procedures whose hulls are compared with its own.
+``certify`` proves a result from the points alone, with code that takes no part in constructing it.  ``exact_hull``
+never returns an unproved result.
 
 coordinates                 input as arrays, and as integers with a common scale
 facets, surface             construction by random incremental insertion

@@ -37,7 +37,7 @@ def insertion_order(count: int, simplex: Sequence[int]) -> list[int]:
 def _on_facets(
     points: Coordinates, facets: Sequence[Facet], others: Ints | None = None, likely: Ints | None = None
 ) -> Ints:
-    """Return those of the points ``others`` that lie in the plane of a facet.
+    """Return those of the points ``others`` that lie in the plane of at least one facet.
 
     By default, ``others`` are all points that are not vertices.  ``likely`` has for each point of ``others`` a facet
     that is tried first, or -1.

@@ -8,9 +8,8 @@
    plane.  The vertices in a plane are exactly those of its facet.  A point that is not a vertex lies in some plane if
    and only if its class is boundary.
 3. Each vertex lies in enough facet planes to be their only common point.  In space, three of these planes have
-   independent normals.  If all points lie in one plane, each vertex lies in two
-   facet planes.  Therefore a vertex does not lie between two other
-   points.
+   independent normals.  If all points lie in one plane, each vertex lies in two facet planes.  Therefore a vertex does
+   not lie between two other points.
 4. The facets form a closed surface.  In space, every polygon turns left at every vertex, seen from outside, and goes
    around once.  Every directed edge of the polygons occurs once, and its reverse also occurs once.  The numbers of
    vertices, edges and facets satisfy V - E + F = 2.  In a plane, the edges are those of the polygon, which satisfies

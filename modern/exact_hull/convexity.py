@@ -2,8 +2,9 @@
 
 ``prove`` checks the following in exact arithmetic:
 
-a. Every plane is in lowest terms, occurs once and contains the corners of its polygon.  The corners are exactly the
-   points called vertices.  A polygon turns left everywhere and goes around once, seen from outside.
+a. Every plane is in lowest terms, occurs once and contains the corners of its polygon.  The corners of the polygons are
+   exactly the points that the result calls vertices.  A polygon turns left everywhere and goes around once, seen from
+   outside.
 b. Every directed edge occurs once and so does its reverse, and V - E + F = 2.
 c. The point o is strictly inside the plane of every facet.
 d. If two polygons share an edge, each is strictly inside the plane of the other, except for the shared edge.

@@ -1,4 +1,4 @@
-"""Read points exactly.  Arrays of integers and floats remain arrays; the scaled integers of floats are made on access.
+"""Read points exactly.  Arrays of numbers remain arrays; floats are scaled to integers only when these are accessed.
 
 :class:`Coordinates` also provides the float64 images of the points, with which the filters of the proof compute.
 """

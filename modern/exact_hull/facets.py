@@ -1,7 +1,7 @@
 """Integer planes and facets for the construction of the exact hull.  The proof does not use these functions.
 
-The triangles of a polyhedron that share a plane become one polygon.  Points in one line or one plane need no surface:
-their facets, the ends of a segment or the edges of a polygon, are found by sorting.
+The triangles of a polyhedron that share a plane become one polygon.  Points on one line or in one plane need no surface
+of triangles: their facets, the ends of a segment or the edges of a polygon, are found by sorting the points.
 """
 
 import math

@@ -82,9 +82,9 @@ class Room(NamedTuple):
     They are allocated once, because numba compiles functions faster if they allocate nothing.  ``near`` has, for each
     point, a triangle in whose plane the point lay when it was last compared with triangles, or -1.  ``visible`` and
     ``fresh`` are the visible and the new triangles of a step.  ``heads`` has the first point in the list of each
-    visible triangle. ``edges`` (n, 2) holds the horizon as (slot, edge), and ``outer`` (n, 3) as (start, end, triangle
-    beyond).  ``todo`` is a stack of slots with waiting points, ``queued`` is True for each slot on the stack, and
-    ``free`` holds empty slots.
+    visible triangle. ``edges`` (n, 2) holds the horizon, the edges around the visible triangles, as (slot, edge), and
+    ``outer`` (n, 3) as (start, end, triangle beyond).  ``todo`` is a stack of slots with waiting points, ``queued`` is
+    True for each slot on the stack, and ``free`` holds empty slots.
     """
 
     near: NDArray[np.int64]
@@ -225,7 +225,7 @@ def wait(known: Any, slot: int, p: int, height: float) -> None:
 def distribute(known: Any, p: int, slots: Any, count: int) -> int:
     """Add a point to the list of the first triangle that it is outside of.
 
-    Return -1 after adding it.  If it is outside of none, return a triangle in whose plane it lies, or -1 if there is no
+    Return -1 if the point was added.  Otherwise return a triangle in whose plane the point lies, or -1 if there is no
     such triangle.
     """
     level = -1
@@ -240,7 +240,7 @@ def distribute(known: Any, p: int, slots: Any, count: int) -> int:
 
 
 def region(known: Any, p: int, start: int, step: int, visible: Any, edges: Any) -> Any:
-    """Find the triangles that a point is outside of, and the edges around them.  Return how many there are of each."""
+    """Find the triangles that a point is outside of, and the edges around them.  Return the numbers of both."""
     mark, neighbours = known.mark, known.neighbours
     visible[0] = start
     mark[start] = 2 * step

@@ -85,7 +85,7 @@ class Planes:
 
     ``table`` (m, 4) has the integers A, B, C and D of each plane, and ``bases`` has the index of a point in each plane.
 
-    ``evaluations`` and ``in_integers`` count the signs computed, and those that the filter did not determine.
+    ``evaluations`` counts the signs computed, and ``in_integers`` those of them that the filter did not determine.
     """
 
     points: Coordinates
@@ -116,10 +116,10 @@ class Planes:
 
     @cached_property
     def _small(self) -> tuple[Ints, bool] | None:
-        """The normals as int64, and whether int64 also holds all scalar products of normals and points.
+        """The normals as int64, and True if int64 also holds all scalar products of normals and points.
 
-        If it does not, :func:`long_signs` finds the signs of the scalar products.  The value is None if the normals
-        themselves do not fit into int64.
+        If int64 does not hold the scalar products, :func:`long_signs` finds their signs.  The value is None if the
+        normals themselves do not fit into int64.
         """
         if self.points.kind != "i":
             return None
@@ -156,7 +156,7 @@ class Planes:
         return signs
 
     def outside(self, facets: Ints, indices: Ints) -> Ints:
-        """Return the positions, in the arguments, of the pairs of a facet and a point that is not in the facet's plane.
+        """Return the indices, in the arguments, of the pairs of a facet and a point that is not in the facet's plane.
 
         The given pairs must include the base point of each facet.
         """

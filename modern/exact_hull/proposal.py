@@ -5,7 +5,8 @@ The hull grows in rounds.  In each round every triangle nominates the farthest o
 inserted together if the regions of triangles that they see neither overlap nor share an edge.  Every edge of the new
 surface then has two triangles that would also be adjacent if only one of these points had been inserted, so the surface
 is convex again.  For the same reason a point that waits at a removed triangle is compared only with the triangles of
-the point that removed it.  "Sees" is strict, as in :mod:`modern.exact_hull.surface`.
+the point that removed it.  A point sees a triangle if it is strictly outside the triangle's plane, as in
+:mod:`modern.exact_hull.surface`.
 
 With numba (extra ``fast``) the same hull grows one point at a time (:mod:`modern.exact_hull.kernels`), if doubles hold
 the points exactly.
@@ -79,8 +80,8 @@ def in_doubles(points: Coordinates) -> Floats | None:
 def propose(points: Coordinates, basis: Sequence[int], fast: bool | None = None) -> Proposal | None:
     """Return a hull that still has to be proved, or None if none was found.
 
-    basis: four points that do not lie in a plane. fast: True to use compiled code, False to use numpy, None to let the
-    program choose.
+    basis: the indices of four points that do not lie in a plane. fast: True to use compiled code, False to use numpy,
+    None to let the program choose.
     """
     start = _simplex(points, basis)
     exact = points.images.are_small
@@ -119,7 +120,7 @@ def _chosen(fast: bool | None, count: int) -> Function | None:
 
 
 def _simplex(points: Coordinates, basis: Sequence[int]) -> list[int]:
-    """Return four points that are far from each other, or those of ``basis`` if these seem to lie in a plane."""
+    """Return four points that are far from each other, or those of ``basis`` if the four seem to lie in a plane."""
     # a and b are the extreme points on an axis, c is farthest from their line, d from the plane of a, b and c.
     places = points.images.places
     a, b = int(places[:, 0].argmin()), int(places[:, 0].argmax())
@@ -334,7 +335,7 @@ class _Growing:
         return rank, triangle, rank[row], triangle[row], edge
 
     def _reassign(self, owner: Ints, inserted: Ints, edge_rank: Ints, first: int) -> None:
-        """Assign each point that waited at a removed triangle to a new one (from index ``first`` on), or drop it."""
+        """Assign each point that waited at a removed triangle to a new triangle (``first`` or higher), or drop it."""
         lost = ~self.alive[self.home]
         orphans, remover = self.waiting[lost], owner[self.home[lost]]
         done = np.zeros(len(self.places), np.bool_)

@@ -84,7 +84,7 @@ class Certificate:
     dimension, points, vertices, edges, facets: the hull's dimension, and its numbers of points, vertices, edges and
     facets.
     arithmetic: "int64", or "float64 and integers" if a floating-point filter was used, or "none" for a point.
-    evaluations: the number of exact signs of a plane at a point.
+    evaluations: how many exact signs of the values of planes at points were computed.
     in_integers: the number of these signs that the floating-point filter could not determine.
     """
 

@@ -13,7 +13,7 @@ _NOT_FINITE = ("nan", "inf", "infinity")
 
 
 def rows(text: str, source: str) -> Iterator[tuple[int, list[str]]]:
-    """Read a text of rows and yield, for each, its line number and its fields without surrounding blanks.
+    """Yield, for each row of a text, its line number and its fields without the blanks around them.
 
     The separator is the first of semicolon, comma and tab that the first row contains, or else blanks.  Blank lines and
     lines that begin with ``#`` are skipped.  A first row is also skipped if it is a heading: none of its fields has a
@@ -36,7 +36,7 @@ def rows(text: str, source: str) -> Iterator[tuple[int, list[str]]]:
 
 
 def _normalised(line: str, separator: str) -> str:
-    """Return a line as the csv module needs it: "" for a comment, and with single blanks if these separate fields."""
+    """Return a line as the csv module needs it: "" for a comment, and single blanks if blanks separate the fields."""
     if line.lstrip().startswith("#"):
         return ""
     return line if separator else " ".join(line.split())
@@ -60,7 +60,7 @@ def begins_with_point(text: str) -> bool:
 
 
 def points(text: str, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]:
-    """Return the points of a list and the line of each point.  Raise FileError for a row that is not x, y, z."""
+    """Return the points of a list and the line of each point.  Raise FileError if a row is not three decimals."""
     numbered = [(_point(row, source, line), line) for line, row in rows(text, source)]
     if not numbered and (heading := next((line.strip() for line in text.splitlines() if line.strip()), "")):
         raise FileError(f"{source}: expected points x,y,z, found only the heading {quoted(heading)}")

@@ -39,7 +39,7 @@ class DataSet:
 
 @dataclass(frozen=True, slots=True)
 class DeckWarning:
-    """A warning about a card, with its place."""
+    """A warning about a card, with the name of the deck and the place."""
 
     source: str
     card: int

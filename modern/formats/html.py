@@ -1,7 +1,8 @@
 """Write a hull as HTML: a self-contained page on which the reader can rotate it.
 
-The template ``hull.html`` contains the page.  The page responds to dragging, the arrow keys, the mouse wheel, +, - and
-0.  Without JavaScript it shows a notice and a table of the exact vertices.
+The template ``hull.html`` contains the page.  The hull turns when the reader drags it or presses an arrow key; the
+mouse wheel and the keys + and - change its size, and 0 restores the first view.  Without JavaScript the page shows a
+notice and a table of the exact vertices.
 """
 
 import json

@@ -4,7 +4,7 @@ Surfaces, points with faces, are read from OFF, OBJ, PLY and STL.
 
 Numbers are exact: a decimal has the value of its text, a binary float the value that it stores.  All digits of a field
 on a card are read, whereas the programs would drop those after the eighth digit.  The format of a file is recognised by
-its first bytes or its first line, and by the extension of its name only if these fit several formats.
+its first bytes or its first line, and by the extension of its name only if those fit several formats.
 """
 
 import io
@@ -28,7 +28,7 @@ _NPY, _DOUBLE = b"\x93NUMPY", 8
 class Input:
     """The points of a file as decimal text, the place of each in the file (such as ``card 3``), and warnings.
 
-    For an array of numbers, the texts are made when they are accessed.
+    If the file holds an array of numbers, the texts are made when they are accessed.
     """
 
     source: str
@@ -107,9 +107,9 @@ def kind_of(data: bytes, source: str) -> str:
 def deck_or_points(data: bytes, source: str) -> str:
     """Return the format of a file of points, or "deck" if it is not clearly one of the other formats.
 
-    In the second case the reader of decks reads the file next and reports any error in it.  A text whose first line has
-    several words is a list only if these words are three numbers, because the first card of a deck may hold two
-    numbers: the number of points N and a tolerance e.
+    If the answer is "deck", the reader of decks reads the file next and reports any error in it.  A text whose first
+    line has several words is a list only if these words are three numbers, because the first card of a deck may hold
+    two numbers: the number of points N and a tolerance e.
     """
     try:
         kind = kind_of(data, source)

@@ -1,8 +1,8 @@
 """Read ASCII and binary STL files, write ASCII ones (3D Systems, "StereoLithography Interface Specification", 1989).
 
 Writing: each face is split into triangles from its first vertex.  The coordinates of a vertex are exact decimals, the
-same in each of its triangles.  Unit normals have no finite decimals and are truncated to nine digits.  A polygon
-becomes a one-sided sheet of triangles.  A segment or a point has no area and raises ExportError.
+same in each of its triangles.  The components of unit normals are truncated to nine decimals.  A polygon becomes a
+one-sided sheet of triangles.  A segment or a point has no area and raises ExportError.
 
 Reading: STL repeats a vertex in each of its triangles, so equal corners become one point, in the order in which they
 first appear.
@@ -82,7 +82,8 @@ def surface_binary(data: bytes, source: str) -> FileMesh:
 def surface(text: str, source: str, check_triangles: bool = True) -> FileMesh:
     """Return the triangles of an ASCII STL file, with the line in which each corner first appears.
 
-    Raise FileError for an invalid corner and, unless ``check_triangles`` is false, for a loop without three corners.
+    Raise FileError for an invalid corner and, unless ``check_triangles`` is false, for an ``outer loop`` that does not
+    have three corners.
     """
     indices: dict[Vector, int] = {}
     points: list[Point] = []

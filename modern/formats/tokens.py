@@ -40,7 +40,7 @@ def last_line(text: str) -> int:
 
 
 def take(rows: Iterator[Line], count: int, source: str, last: int, what: str) -> Iterator[Line]:
-    """Yield the next ``count`` lines of a file.  Raise FileError, naming line ``last``, if the file ends earlier."""
+    """Yield the next ``count`` lines of a file.  Raise FileError for line ``last`` if the file ends earlier."""
     for done in range(count):
         line = next(rows, None)
         if line is None:

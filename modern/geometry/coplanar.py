@@ -43,7 +43,7 @@ class Joined:
     the first face that it replaces.  ``loops`` are the polygons of the joined faces, counterclockwise seen from
     outside.  ``left_out`` has the points that belong to no polygon, because they lie inside a joined face.  ``square``
     is the square of the largest distance of a vertex from the plane of its joined face.  ``beyond`` is the square of
-    the smallest E that would join one more face, or None.
+    the smallest E that would join one more face, or None if no E would.
     """
 
     within: Fraction
@@ -205,7 +205,7 @@ def join_summary(joined: Joined) -> str:
 
 
 def root_text(square: Fraction) -> str:
-    """Return the square root of ``square`` as text of three digits, rounded up."""
+    """Return the square root of ``square`` as text with three significant digits, rounded up."""
     work = Context(prec=_WORK, rounding=ROUND_HALF_EVEN, Emin=MIN_EMIN, Emax=MAX_EMAX)
     root = work.sqrt(work.divide(Decimal(square.numerator), Decimal(square.denominator)))
     rounded = Context(prec=_SHOWN, rounding=ROUND_CEILING, Emin=MIN_EMIN, Emax=MAX_EMAX).plus(root)
@@ -259,7 +259,7 @@ def _check_convex(
 ) -> None:
     """Raise CoplanarError if a corner of the polygon ``loop`` lies more than E inside the convex hull of the polygon.
 
-    The distance is measured in the view along the normal.
+    The distance is measured after a projection along the normal.
     """
     size = dot(normal, normal)
     corners = [points[index] for index in loop]

@@ -110,14 +110,14 @@ def as_tuple(members: Sequence[T]) -> tuple[T, ...]:
 
 @dataclass(frozen=True, slots=True)
 class Face:
-    """A supporting plane A x + B y + C z + D = 0, or a supporting line of a polygon.  Outside, its value is positive.
+    """A supporting plane A x + B y + C z + D = 0 of a polyhedron, or a supporting line of a polygon.
 
-    ``coefficients`` are A, B, C and D as the thesis computes them, as sums of products of coordinates of the defining
-    points.  The line of a polygon is computed without one of the coordinates x, y, z, whose coefficient is 0 (thesis p.
-    16-17).  ``lowest`` is the same equation in integers without a common divisor.  ``defining`` are the points MM, NN
-    and KK (for a line MM and NN) from which the equation was computed.  ``polygon`` are the vertices on the plane in
-    cyclic order, counterclockwise seen from outside.  A line has two vertices.  ``on`` are the other input points on
-    the plane or line.
+    The value of the equation is positive on the outer side.  ``coefficients`` are A, B, C and D as the thesis computes
+    them, as sums of products of coordinates of the defining points.  The line of a polygon is computed without one of
+    the coordinates x, y, z, whose coefficient is 0 (thesis p. 16-17).  ``lowest`` is the same equation in integers
+    without a common divisor.  ``defining`` are the points MM, NN and KK (for a line MM and NN) from which the equation
+    was computed.  ``polygon`` are the vertices on the plane in cyclic order, counterclockwise seen from outside.  A
+    line has two vertices.  ``on`` are the other input points on the plane or line.
     """
 
     coefficients: Coefficients
@@ -139,8 +139,8 @@ class Stage:
 
     number: j.
     added: the point that became a vertex.  For H_1 these are its initial points.
-    checked: the number of the equation that the point was found outside of (NETC in the listing), or 0 for H_1.
-    outside: the number of equations that the added point is outside of.
+    checked: the number of the equation that the point was found to be outside of (NETC in the listing), or 0 for H_1.
+    outside: how many equations of the previous hull the added point is outside of.
     struck: the points inside H_j, which the procedure eliminates.
     equations: the defining points of each equation of H_j, in the order of the procedure's table of equations.
     """
@@ -183,8 +183,7 @@ class Hull:
     duplicates: pairs of a point and the first point with the same coordinates.  The thesis requires distinct points,
         so duplicates are reported and otherwise ignored.
     plane: the plane of a polygon, as program 1 punches it.
-    lines: two equations for each line: for the line of a segment, or for each of the three sides if the input is three
-        points.
+    lines: for a segment, two equations that define its line; for three points, two such equations for each side.
     centre: for a polyhedron the inside point C, the mean of the points of H_1.
     statement: the program and statement number in Butler's listing at which the status was decided.
     corrected: identifiers of the modern corrections that changed a branch of the listing.

@@ -37,7 +37,7 @@ class Mesh:
         return tuple(coordinates(point) for point in self.points)
 
     def decimals(self, digits: int | None) -> tuple[str, ...]:
-        """Return each point as a line ``x y z`` of decimals, rounded to ``digits`` if necessary."""
+        """Return each point as a text ``x y z`` of decimals, rounded to ``digits`` digits if necessary."""
         lines = []
         for place, point in enumerate(self.points, 1):
             texts = []

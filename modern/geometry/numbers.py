@@ -1,8 +1,9 @@
 """Convert decimals and fractions to exact numbers, and exact numbers to text.
 
-``exact_text`` formats the numbers of a hull. ``decimal_text`` and ``finite_decimal`` format numbers in files and
-messages, and use a decimal exponent also for numbers that ``exact_text`` writes without one.  The module must not
-import numpy, because a page of the site runs it in the reader's browser, where numpy is missing.
+``exact_text`` formats the numbers of a hull, and uses an exponent only for numbers of more than 80 digits.
+``decimal_text`` and ``finite_decimal`` format numbers in files and messages, and may use an exponent for shorter ones,
+such as ``1E+22``.  The module must not import numpy, because a page of the site runs it in the reader's browser, where
+numpy is missing.
 """
 
 import re

@@ -1,4 +1,4 @@
-"""Check arguments that must be points, a sequence or an array with three coordinates for each, and convert them.
+"""Check and convert arguments that must be points: an array (n, 3), or a sequence with three coordinates per point.
 
 Every public function that accepts points uses these checks, so that all raise the same errors.
 """
@@ -34,7 +34,7 @@ def check_array(points: NDArray[Any]) -> None:
 
 
 def point_rows(points: Any) -> Iterator[list[Any]]:
-    """Yield the three coordinates of each point, without checking them.  Raise PointsError for any other structure."""
+    """Yield the coordinates of each point, unchecked.  Raise PointsError unless each point has three coordinates."""
     if isinstance(points, np.ndarray):
         check_array(points)
         points = points.tolist()

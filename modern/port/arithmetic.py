@@ -1,9 +1,9 @@
 """The operations that Butler's procedure needs from an arithmetic, such as + - * of vectors, signs and square roots.
 
 A vector is a numpy array of floats or of Python objects. The formulas below use the operators of vectors, so that the
-same code of the procedure serves every arithmetic. A quantity has a *degree*, the number of coordinates that are
-multiplied in it: 1 for coordinates, 2 for the coefficients A, B, C of a plane and 3 for D. An arithmetic that stores
-numbers in a scaled unit needs the degree to convert them.
+same code of the procedure serves every arithmetic. A quantity is a sum of products of coordinates. Its *degree* is the
+number of coordinates in each product: 1 for coordinates, 2 for the coefficients A, B, C of a plane and 3 for D. An
+arithmetic that stores numbers in a scaled unit needs the degree to convert them.
 """
 
 from abc import ABC, abstractmethod

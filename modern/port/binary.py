@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class FloatArithmetic(Arithmetic):
-    """IEEE 754 double or single precision.  Decimal input is rounded to a double, then to a single if requested."""
+    """IEEE 754 double or single precision.  Decimal input is rounded to a double, then for ``float32`` to a single."""
 
     dtype: type[np.floating[Any]]
 

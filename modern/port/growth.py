@@ -13,7 +13,8 @@ from modern.port.table import Equations, PointTable
 class Remaining:
     """The points that may still become vertices.
 
-    Each point has a keeper, an equation of the hull that proves that the point is not inside the hull.
+    Each point has a *keeper*: an equation of the hull that is not negative at the point, so that the point is not
+    inside the hull.
     """
 
     def __init__(self) -> None:
@@ -75,7 +76,7 @@ TABLE_OF_LINES, BETWEEN, NUMBERING = "P2-023", "P2-024", "P2-025"
 class Stopped(Exception):
     """Raised if Butler's procedure ends without a hull.  ``status`` is the message that her program types.
 
-    ``label`` names the program and the number of the statement at which the procedure ends.
+    ``label`` gives the program and the number of the statement at which the procedure ends, such as ``program3 133``.
     """
 
     def __init__(self, status: str, label: str) -> None:
@@ -85,10 +86,10 @@ class Stopped(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Grown:
-    """The effect of adding a vertex: the points added and eliminated, and the numbers of the equations involved.
+    """The effect of adding a vertex: the points added and eliminated, and data about the equations involved.
 
-    ``checked`` is the number of the equation that the vertex was found outside of, counted from 1.  ``outside`` is how
-    many equations the vertex was outside of.
+    ``checked`` is the number, counted from 1, of the equation that the vertex was found to be outside of.  ``outside``
+    is how many equations the vertex was outside of.
     """
 
     added: tuple[int, ...]

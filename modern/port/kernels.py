@@ -49,7 +49,7 @@ BLOCK = 256
 
 
 def keeper_among(point: Any, slots: Any, first: int, last: int) -> int:
-    """Return the slot of the first plane, from ``first`` up to ``last``, that the point is on or outside of, or -1."""
+    """Return the first slot, from ``first`` to ``last`` - 1, whose plane the point is on or outside of, or -1."""
     for slot in range(first, last):
         if slots.alive[slot] and is_not_inside(at(equation(slots.coefficients, slot), point), slots.tolerances[slot]):
             return slot
@@ -99,7 +99,7 @@ def count_above(coordinates: NDArray[Any], start: int, end: int, plane_equation:
 
 
 def farthest_outside(coordinates: NDArray[Any], count: int, plane_equation: Any, e: Any) -> int:
-    """Return the index of the point farthest outside a plane (of equally far ones the last), or -1 if none is."""
+    """Return the index of the point farthest outside a plane (the last of equally far ones), or -1 if none is."""
     # A value within the slack counts as zero. The difference computed here is a zero of the number type of the values.
     largest = e if e > 0 else e - e
     index = -1
@@ -141,8 +141,8 @@ def outside_point(cloud: Any, slots: Any, state: NDArray[np.int64]) -> int:
 def planes_to_replace(point: Any, slots: Any, scratch: Any, state: NDArray[np.int64]) -> int:
     """List the planes that the point is outside of, in the order in which they are replaced.  Return their number.
 
-    The first is the plane that is being checked. No point is outside of earlier planes, because they were checked
-    before.
+    The first plane is the one that is being checked. No point is outside of the planes in earlier slots, because those
+    were checked before.
     """
     order, values = scratch.order, scratch.values
     # Statements 135 to 140: the plane being checked first, then by decreasing value at the new vertex.
@@ -316,7 +316,7 @@ def expand(index: int, cloud: Any, slots: Any, scratch: Any, state: NDArray[np.i
 
 
 def grow(cloud: Any, slots: Any, scratch: Any, state: NDArray[np.int64], rules: Any, first: bool, stages: int) -> int:
-    """Add ``stages`` vertices to the hull, or all if it is negative.  ``first`` is True before the first addition."""
+    """Add ``stages`` vertices to the hull, or all if ``stages`` < 0.  ``first`` is True before the first addition."""
     while True:
         if not first:
             # No points remain, and the last test eliminated none (statement 103).

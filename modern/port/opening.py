@@ -28,9 +28,9 @@ NO_FOURTH = "chapter 3, p. 29"
 class Opening:
     """The result of program 1: the kind of point set, and the planes or lines with which programs 2 and 3 begin.
 
-    ``kind`` is ``point``, ``segment``, ``triangle``, ``coplanar``, ``solid`` or ``error``, and ``label`` is the
-    statement that decided the kind. ``lines`` has two equations for each line. ``plane`` is present for three or more
-    coplanar points and ``centre``, the inside point C, for a solid.
+    ``kind`` is ``point``, ``segment``, ``triangle``, ``coplanar``, ``solid`` or ``error``, and ``label`` is the number
+    of the statement that decided the kind. ``lines`` has two equations for each line. ``plane`` is None unless all
+    points lie in one plane but not on one line. ``centre``, the inside point C, is None unless the points span space.
     """
 
     kind: str

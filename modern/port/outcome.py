@@ -67,8 +67,8 @@ def polygon_edges(
 ) -> tuple[Face, ...]:
     """Return the sides of a polygon as faces.
 
-    ``projection`` is the number of the coordinate that was projected away, from 1.  The coefficient of this coordinate
-    is 0.
+    ``projection`` is the number of the coordinate along which the points were projected: 1 for x, 2 for y, 3 for z.
+    The coefficient of this coordinate is 0.
     """
     arithmetic, faces = table.arithmetic, []
     for k, satisfied in enumerate(on):

@@ -66,8 +66,9 @@ class Polyhedron:
     def expand(self, index: int) -> int:
         """Make the point at ``index`` a vertex, and return how many planes it was outside of (statements 125 to 160).
 
-        Three planes replace each of these planes: first the one that is being checked, then the others by decreasing
-        value at the point (if ``text`` is true, by their numbers). Raise Stopped if the procedure cannot continue.
+        Three planes replace each of these planes. The plane that is being checked is replaced first, then the others in
+        the order of decreasing value at the point, or, if ``text`` is true, in the order of their numbers. Raise
+        Stopped if the procedure cannot continue.
         """
         new = self.vertices
         if new == len(self.points):
@@ -101,7 +102,7 @@ class Polyhedron:
         return max(PLANES, 4 * len(self.points) - 11)
 
     def three_planes(self, replaced: NDArray[np.int64], new: int) -> Fresh:
-        """Return three planes for each replaced plane, through the new vertex and two of its three defining points.
+        """Return, for each replaced plane, three planes through the new vertex and two of its defining points.
 
         ``replaced`` has the defining points of each replaced plane in a column (statement 126 on).
         """
@@ -128,7 +129,8 @@ class Polyhedron:
     def single(self, defining: NDArray[np.int64]) -> NDArray[np.bool_]:
         """Return a mask of the new planes that is False for every pair of equal planes (statements 141 to 160).
 
-        Such a pair lies inside the new hull.  No older plane contains the new vertex, so only new planes are compared.
+        The planes of such a pair pass through the interior of the new hull.  No older plane contains the new vertex, so
+        only new planes are compared.
         """
         retained = np.ones(defining.shape[1], np.bool_)
         if len(retained) == 3:
@@ -151,8 +153,9 @@ class Polyhedron:
     def stop(self, first_equation: int, above: dict[int, Scalar], new: int) -> None:
         """Repeat the failing stage plane by plane, as the listing does, and raise Stopped at the statement that fails.
 
-        A plane whose coefficients are zero is an error. If rounding puts the new point outside a plane through it, the
-        listing replaces that plane by a copy of itself and two other planes, again and again until its table is full.
+        The listing reports an error if the coefficients A, B and C of a plane are zero. If rounding puts the new point
+        outside a plane through it, the listing replaces that plane by a copy of itself and two other planes, again and
+        again until its table is full.
         """
         point = self.points.at(new)
         defining = {k: self.table.defining[:, k] for k in above}

@@ -152,7 +152,7 @@ class Equations:
         return snapped(self.arithmetic, at(tuple(coefficients), point), slack)
 
     def signs(self, points: Vector, first: int = 0) -> NDArray[np.int8]:
-        """Return the signs of equations from index ``first`` on (rows) at the given points (columns)."""
+        """Return the signs of the equations from index ``first`` on (rows) at the given points (columns)."""
         table = self.coefficients[:, first:, None]
         count = len(table) - 1
         slack = None if self.tolerances is None else self.tolerances[first:, None]

@@ -1,6 +1,7 @@
 """The arrays of the compiled program 3: points, planes, counters, and small operations on them.
 
-Planes occupy *slots* in the order of the table. The slot of a deleted plane stays empty until :func:`pack`.
+A plane occupies a *slot*, an index of the arrays, in the order of the table of planes. The slot of a deleted plane
+stays empty until :func:`pack`.
 """
 
 from typing import Any, NamedTuple
@@ -29,8 +30,8 @@ THROUGH, TABLE, PAIR = 1, 2, 4
 class Cloud(NamedTuple):
     """The points in their current order: coordinates, shape (3, n), and input indices.
 
-    ``keeper`` has, for each point, the slot of a plane that the point is on or outside of, or -1. ``eliminated``
-    collects the eliminated points.
+    ``keeper`` has, for each point, the slot of a plane that the point is on or outside of, or -1 if none is known.
+    ``eliminated`` collects the eliminated points.
     """
 
     coordinates: NDArray[Any]
