@@ -160,13 +160,17 @@ def fourth_point_by_largest() -> Check:
 def new_planes(cases: int = CASES) -> Check:
     checks = []
     for _, before, after, visible in _visible(cases):
+        # Pages 32 and 33 name the new point last, so that planes name their points in the order of their numbers.
+        planes = [tuple(sorted(d, key=before.vertices.index)) for d in before.defining]
         # The planes of an edge between two replaced planes are equal, and both are eliminated (page 33).
-        edges = Counter(frozenset(edge) for k in visible for edge in combinations(before.defining[k], 2))
-        remaining = [frozenset(d) for k, d in enumerate(before.defining) if k not in visible]
-        made = [edge | {after.vertices[-1]} for edge, count in edges.items() if count == 1]
+        edges = Counter(edge for k in visible for edge in combinations(planes[k], 2))
+        remaining = [frozenset(d) for k, d in enumerate(planes) if k not in visible]
+        made = [frozenset(edge) | {after.vertices[-1]} for edge, count in edges.items() if count == 1]
         checks.append(Counter(map(frozenset, after.defining)) == Counter([*remaining, *made]))
-    message = "hulls have the planes that the rule makes of the new point and the sides of the replaced planes"
-    return all_hold(SETS[3], cases, checks, message)
+    message = "hulls have the planes that the rule makes of the new point and the sides of the replaced planes, if two "
+    return all_hold(
+        SETS[3], cases, checks, f"{message}new planes with the same points in the same order are eliminated"
+    )
 
 
 @claim("thesis.97", full=300)
@@ -209,15 +213,13 @@ def planes_i_and_m() -> Check:
 
 @claim("thesis.98", full=300)
 def planes_of_same_points(cases: int = CASES) -> Check:
-    eliminated, in_order = [], []
-    for _, before, after, i, m, edge in _with_common_edge(cases):
-        eliminated.append({*edge, after.vertices[-1]} not in map(set, after.defining))
-        # A new plane names the points of the edge in the order of the replaced plane, and then the new point.
-        first, second = ([k for k in before.defining[plane] if k in edge] for plane in (i, m))
-        in_order.append(first == second)
-    check = all_hold(SETS[3], cases, eliminated, "pairs of planes through the same points are eliminated")
-    case = f"a comparison of points at equal positions, which misses {in_order.count(False)} of {len(in_order)} pairs"
-    return check.unless(not all(in_order), case)
+    pairs = []
+    for _, before, _, i, m, edge in _with_common_edge(cases):
+        # In program 3, the new point takes the place of the point of the replaced plane that is not on the edge.
+        first, second = (tuple(k if k in edge else None for k in before.defining[plane]) for plane in (i, m))
+        pairs.append(first == second)
+    case = f"the order of program 3, in which {pairs.count(False)} of {len(pairs)} pairs of equal planes name points differently"
+    return new_planes(cases).unless(not all(pairs), case)
 
 
 # A fourth point is necessary to follow the text (thesis.87).
