@@ -61,12 +61,14 @@ def triangle_area() -> Proof:
     )
 
 
-@proves("appel-will.81", "appel-will.82", "appel-will.139")
+@proves("appel-will.81", "appel-will.82")
+@proves("appel-will.139", conclusion="a line in the direction of the unit normal is perpendicular to the plane")
 def lines_and_planes() -> Proof:
     p, q, n = (point(name, 3) for name in "pqn")
     d, t, length = variables("d t l")
     unit = {"unit": zero(dot(n, n) - 1)}
     line, plane = {"line": zero(dot(n, minus(q, p)))}, {"plane": zero(dot(n, p) + d)}
+    other = {"other": zero(dot(n, q) + d)}
     along = tuple(a + t * b for a, b in zip(p, n, strict=True))
     way = minus(along, p)
     value_terms = term("plane"), term("unit", t)
@@ -77,10 +79,12 @@ def lines_and_planes() -> Proof:
         "The squares of a, b and c have the sum 1, because a, b and c are the differences of the coordinates of two "
         "points, divided by the distance of the points. The direction times this distance leads from the first point "
         "to the second, and the direction times t leads to the point at the distance t. The value a x + b y + c z + d "
-        "is 0 at the points of the plane, and t at the distance t along its normal.",
+        "is 0 exactly at the points whose direction from a point of the plane is perpendicular to (a, b, c), and t at "
+        "the distance t along the normal, which runs from a point of the plane in the direction (a, b, c).",
         *(Step("t = l is the end", {axis: zero(printed)}, zero(end), (term(axis),)) for axis, end, printed in ends),
         Step("t is the distance", unit, zero(dot(way, way) - t * t), (term("unit", t * t),)),
-        Step("a plane contains its points", line, zero(dot(n, q) - dot(n, p)), (term("line"),)),
+        Step("a line in the plane is perpendicular", plane | other, line["line"], (term("other"), term("plane", -1))),
+        Step("the value is 0 if it is", plane | line, other["other"], (term("line"), term("plane"))),
         Step("the value is the distance", unit | plane, zero(dot(n, along) + d - t), value_terms),
     )
 

@@ -218,7 +218,7 @@ def planes_of_same_points(cases: int = CASES) -> Check:
         # In program 3, the new point takes the place of the point of the replaced plane that is not on the edge.
         first, second = (tuple(k if k in edge else None for k in before.defining[plane]) for plane in (i, m))
         pairs.append(first == second)
-    case = f"the order of program 3, in which {pairs.count(False)} of {len(pairs)} pairs of equal planes name points differently"
+    case = f"the orders of program 3, which differ for {pairs.count(False)} of {len(pairs)} pairs of equal planes"
     return new_planes(cases).unless(not all(pairs), case)
 
 

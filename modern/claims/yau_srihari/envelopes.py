@@ -274,5 +274,6 @@ def epigraph_at_inner_nodes() -> Check:
         outcomes.append(all(full[at] == (at[2] >= tree.values[at[:2]]) for at in product(range(2), repeat=3)))
         if tree.low == 0 and count(epigraph) < 8:
             too_full.append(f"the root for the heights {tops}, which would have 8 voxels instead of {count(epigraph)}")
-    check = exhausted("heights from 0 to 2 of 2 by 2 columns", outcomes, "each column is full from its height upward")
+    message = "a voxel is full exactly if its z is not below the height of its column"
+    check = exhausted("heights from 0 to 2 of 2 by 2 columns", outcomes, message)
     return check.unless(too_full, too_full[0])
