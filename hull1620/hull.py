@@ -32,7 +32,7 @@ Array = TypeVar("Array", bound=NDArray[Any])
 
 
 class Area(float):
-    """An area as a double, which numpy functions and Fractions accept, unlike a Decimal.
+    """An area as a double, because numpy functions and operations with Fractions accept a double but no Decimal.
 
     Attributes
     ----------

@@ -1,7 +1,7 @@
 """Run one program on many decks, with the compiled engine if possible and otherwise with the interpreter.
 
-The results are those of :class:`emulator.machine.machine.Machine` for each deck.  The decks are processed in blocks, so
-that memory does not grow with their number.
+For each deck, the result equals that of :class:`emulator.machine.machine.Machine`.  The decks are processed in blocks,
+so that memory does not grow with their number.
 """
 
 from collections.abc import Callable, Iterable, Iterator

@@ -1,4 +1,4 @@
-"""Run a whole deck in compiled code, with the kernel (the loop over object code) and the devices.
+"""Run a program on a whole deck in compiled code, with the kernel (the loop over object code) and the devices.
 
 The engine supports READ, PUNCH, PRINT and TYPE with any FORMAT, SQRT, integer powers, error codes, PAUSE and the normal
 endings.  If a run needs anything else, it ends with NOT_HERE, and the caller runs the deck again on a
@@ -56,7 +56,7 @@ def run_decks(
     rules: Rules,
     setting: Setting,
 ) -> int:
-    """Run the decks in order until the devices' log is full, and return the number of decks that were completed.
+    """Run the program on the decks, in order, until the devices' log is full.  Return the number of completed decks.
 
     The caller must call the function again, with an empty log, for the remaining decks.
     """
@@ -122,7 +122,7 @@ def run_deck(
     rules: Rules,
     setting: Setting,
 ) -> int:
-    """Run one deck and return the reason for the end of the run.
+    """Run the program on one deck and return the reason for the end of the run.
 
     The entries FIRST_CARD, LAST_CARD and NEXT of ``desk.devices`` must already be set for the deck.
     """

@@ -1,4 +1,4 @@
-"""The compiled engine for one program, which runs decks of character codes and returns counts and a log for each deck.
+"""The compiled engine with one program: it runs decks of character codes, and returns counts and a log for each.
 
 numba compiles the unchanged Python code of :func:`emulator.compiled.deck.run_decks` and of the functions that it calls.
 Numbers have at most nine digits, because products must fit into 64 bits.

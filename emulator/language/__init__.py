@@ -19,8 +19,8 @@ To add a kind of statement, add or change in each file:
 7. ``emulator/translation/steps.py`` and ``writers.py``: a step, if the statement needs a new operation.
 8. Only if no existing operation fits, add one.  The name and the meaning of the operation belong in ``objectcode.py``
    (``MEANINGS``, and the names below it in the same order).  Its action belongs in ``emulator/machine/interpreter.py``,
-   or in ``session.py`` or ``devices.py`` if it concerns the operator or a device.  ``emulator/compiled/kernel.py``
-   repeats the action, or ``emulator/compiled/deck.py`` returns ``NOT_HERE``.  Its time belongs in
+   or in ``session.py`` or ``devices.py`` if it concerns the operator or a device.  Repeat the action in
+   ``emulator/compiled/kernel.py``, or let ``emulator/compiled/deck.py`` return ``NOT_HERE``.  Its time belongs in
    ``emulator/machine/timing.py``.  If the operation branches, it also needs cases in ``flatten`` and in ``successors``
    of ``control_flow.py``.  If it has several targets, it also needs an entry in ``_DECISIONS`` of
    ``emulator/machine/comparison.py``.

@@ -89,8 +89,8 @@ def deck_from_text(source: str, text: str) -> Deck:
 def read_deck(path: str | os.PathLike[str], change: Callable[[str], str] | None = None) -> Deck:
     """Read a deck file, or standard input if ``path`` is ``-``.
 
-    ``change`` is applied to the text before it is divided into cards.  Raise FileError if the file cannot be read,
-    DeckError if it holds no punched card, and CardError for an invalid card.
+    The function ``change`` is applied to the text of the file before the text is divided into cards.  Raise FileError
+    if the file cannot be read, DeckError if it holds no punched card, and CardError for an invalid card.
     """
     expect(path, (str, os.PathLike), "path")
     path = os.fspath(path)

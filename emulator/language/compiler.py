@@ -1,8 +1,9 @@
 """The compiler, which translates the syntax tree to object code: statement numbers, DO loops, input, output, storage.
 
-Sources: C26-5619 for the forms of statements and, on p. 56, for the error types.  A DO behaves as in IBM's object code,
-which we executed: the code at the end of the loop adds the step to the variable and compares the variable with the
-limit.  So a loop runs at least once, and its variable ends at the first value beyond the limit.
+Sources: C26-5619 for the forms of statements and, on p. 56, for the error types.  A DO behaves as in the object code of
+IBM's compiler, which we executed: code at the end of the loop adds the step to the variable, and branches back unless
+the variable then exceeds the limit.  So a loop runs at least once, and its variable ends at the first value beyond the
+limit.
 """
 
 import math

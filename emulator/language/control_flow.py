@@ -1,4 +1,4 @@
-"""The possible paths through object code, and warnings about branches in a program that may be mistakes.
+"""The possible paths through object code, and warnings about those branches of a program that may be mistakes.
 
 The warnings concern programs that compile.  They do not change the object code.  The 1620 gave no such warnings.
 """

@@ -1,12 +1,12 @@
 """Generate code for expressions, in a fixed order of operations, on which the sign of every zero result depends.
 
-The order was determined from the object code of PDQ FORTRAN.  It agrees with every zero that the thesis prints and with
-the only known program that IBM's compiler of 1962 compiled.  Operations run from left to right (C26-5619 p. 19).  If
-the right operand is itself an expression, it is computed in FAC, and the left operand is then combined with FAC.  Signs
-are deferred: the compiler remembers whether the accumulator or a temporary field holds the negative of its value, and
-chooses addition or subtraction accordingly.  The sign is reversed only before the value is stored, tested, or passed to
-a function or a power.  So ``A-B*C-D`` is computed as B*C - A + D.  The sign of this sum is reversed at the end, which
-makes a result of zero a minus zero.
+The order was determined from the object code of PDQ FORTRAN.  With this order, every zero that the thesis prints has
+its printed sign, and the only known program that IBM's compiler of 1962 compiled has the same operations.  Operations
+run from left to right (C26-5619 p. 19).  If the right operand is itself an expression, it is computed in FAC, and the
+left operand is then combined with FAC.  Signs are deferred: the compiler remembers whether the accumulator or a
+temporary field holds the negative of its value, and chooses addition or subtraction accordingly.  The sign is reversed
+only before the value is stored, tested, or passed to a function or a power.  So ``A-B*C-D`` is computed as B*C - A + D.
+The sign of this sum is reversed at the end, which makes a result of zero a minus zero.
 """
 
 from dataclasses import dataclass, field
@@ -213,7 +213,7 @@ class Emitter:
         return negative
 
     def _part(self, expression: Expression) -> bool:
-        """Emit code for one operand of a sum or product.  Return True if the accumulator then holds its negative."""
+        """Emit code for one operand of a sum or product.  Return True if the accumulator holds minus the operand."""
         negative = self.deferred(expression)
         if isinstance(expression, Sum):
             self.group()

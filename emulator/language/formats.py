@@ -45,9 +45,9 @@ Spec = Literal | Field | Slash
 class FormatSpec:
     """A FORMAT as a flat sequence of specifications, with repeat counts and groups expanded.
 
-    A list that has more items than the FORMAT has fields continues at the specification with the index ``again``, as in
-    IBM FORTRAN II-D.  ``again`` is the start of the last group that contains a field, in its first repetition, or 0 if
-    there is no such group.
+    If a list has more items than the FORMAT has fields, the FORMAT is used again from the specification with the index
+    ``again``, as in IBM FORTRAN II-D.  ``again`` is the start of the last group that contains a field, in its first
+    repetition, or 0 if there is no such group.
     """
 
     specs: tuple[Spec, ...]

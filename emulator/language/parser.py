@@ -55,7 +55,8 @@ class Parsed:
 
     ``refused`` holds the statement numbers of the statements that do not parse.  ``foreign_names`` holds the names that
     statements of another FORTRAN declare as arrays or functions.  Statements that use these names cannot be checked.
-    ``data`` holds the data cards after END: without leading blank cards, and up to the first control card.
+    ``data`` holds the data cards: those after END, without blank cards at their beginning, and before the first control
+    card of an operating system.
     """
 
     statements: tuple[tree.Statement, ...]

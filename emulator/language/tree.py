@@ -87,7 +87,7 @@ class ComputedGoTo:
 
 @dataclass(frozen=True, slots=True)
 class If:
-    """The statement ``IF (expression) negative, zero, positive``, which branches by the sign of a number."""
+    """The statement ``IF (expression) negative, zero, positive``, which branches by the sign of the expression."""
 
     value: Expression
     labels: tuple[int, int, int]

@@ -218,7 +218,7 @@ class Comparison:
         return self._line(pc) if pc < len(self._statement_of) else None
 
     def losses(self) -> tuple[Loss, ...]:
-        """Return the losses of all statements, the largest first.  Equal losses are in the order of their cards."""
+        """Return the losses of all statements, the largest first, and equal losses in the order of the cards."""
         lines = self._program.statements
         losses = [_loss(lines[statement], tally) for statement, tally in self._tallies.items()]
         return tuple(sorted(losses, key=lambda loss: (-loss.worst, -loss.median, loss.line.place.card)))

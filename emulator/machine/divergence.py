@@ -49,7 +49,7 @@ class Divergence:
     Attributes
     ----------
     digits
-        The digits of the less precise arithmetic.
+        The number of digits of the less precise arithmetic.
     compared, tested
         The numbers of values and decisions compared.
     values, decisions
@@ -61,7 +61,7 @@ class Divergence:
     apart
         The reason why the comparison ended early, or "" if both runs were compared to their ends.
     endings
-        The ending of each run, or None for a run that was stopped.
+        The ending of each run, or None for a run that the comparison stopped before its end.
     typed
         The last line that each run typed, or "".
     """
@@ -120,7 +120,7 @@ def diverge(
     Parameters
     ----------
     options
-        The options of both runs, except for the numbers.
+        The options of both runs.  Their arithmetic is not used: ``studied`` and ``reference`` replace it.
     values
         Compare values as well as decisions.  If False, the comparison ends at the first decision that differs, which is
         fast enough for studies of many decks.

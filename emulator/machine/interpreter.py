@@ -86,7 +86,7 @@ def run(
     Raises
     ------
     Undecided
-        If the numbers cannot decide a test.  ``state.at`` is then the instruction of the test.
+        If the arithmetic cannot determine the sign that an IF tests.  ``state.at`` is then the instruction of the test.
     """
     operations, addresses, subscripts, seconds, _, targets, loops, begins, charges, size = code
     # While the loop runs the registers are local variables, which are faster than attributes of the state.

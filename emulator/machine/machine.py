@@ -1,4 +1,4 @@
-"""A 1620 with its operator, which runs a program from its first statement to its end.
+"""Run a program on a 1620 with its operator, from the first statement to the end.
 
 Machines share no state, so any number of them can exist at the same time.
 """

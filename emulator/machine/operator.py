@@ -86,10 +86,10 @@ PUNCHED = "PUNCHED"
 
 
 def read_loads(name: str, text: str) -> tuple[list[Load], dict[str, str]]:
-    """Return the parts of an operator's file, one for each machine, and its decks.  Raise FileError if it is invalid.
+    """Return the parts of an operator's file, one for each machine, and the decks in it, each as text under its name.
 
     ``LOAD`` with the names of a program and a deck begins the lines of a machine.  ``CARDS`` with a name begins a deck,
-    and each ``CARD`` line holds one of its cards.
+    and each ``CARD`` line holds one of its cards.  Raise FileError if the file is invalid.
     """
     loads = [Load("", "", deque())]
     decks: dict[str, str] = {}

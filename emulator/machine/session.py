@@ -53,8 +53,8 @@ class Action:
     - ATTN: stop a running machine before its next statement.  A second ATTN stops it at once, even within a list of an
       input or output statement.
     - SWITCH: turn sense switch ``number`` on if ``on`` is True, otherwise off.
-    - BREAK, CLEAR: set or remove a breakpoint at statement ``number``, at the statements on a ``card``, or at the first
-      statement after the variable or element ``name`` has changed.
+    - BREAK, CLEAR: set or remove a breakpoint.  The breakpoint is at statement ``number``, at the statements on card
+      ``number`` if ``card`` is True, or at the first statement after the variable or element ``name`` has changed.
     """
 
     word: Literal["ENTER", "START", "STEP", "STOP", "ATTN", "SWITCH", "BREAK", "CLEAR"]

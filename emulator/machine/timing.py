@@ -143,7 +143,8 @@ class Timing:
 def measure(program: Program, result: Result) -> Timing:
     """Return the time table of a run.
 
-    Its ``statements`` are pairs of an index into ``program.statements`` and the number of executions.
+    The attribute ``statements`` of the table has pairs of an index into ``program.statements`` and the number of times
+    that the statement was executed.
     """
     expect(program, Program, "program")
     expect(result, Result, "result")
@@ -230,7 +231,6 @@ def _records(program: Program, result: Result) -> dict[str, int]:
 
 
 def _executions(program: Program, result: Result) -> Iterator[tuple[Instruction, int]]:
-    """Yield each instruction with the number of its executions."""
     # All instructions up to the next COUNT run equally often.  After a run that ends within a statement, the rest of
     # that statement is counted too.
     times = 0

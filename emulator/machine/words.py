@@ -31,7 +31,7 @@ _FORMS = {
 
 
 def read_action(line: str) -> tuple[int | None, Action]:
-    """Read a line of an operator's file.  Return the units of work before the action (``AT``) or None, and the action.
+    """Read a line of an operator's file.  Return the number n of ``AT n`` at its beginning, or None, and the action.
 
     Raise ValueError with a message for an invalid line.
     """

@@ -1,4 +1,4 @@
-"""Decimal floating point as the 1620's subroutines computed it: pure functions on integers under named profiles.
+"""Decimal floating point as the 1620's subroutines computed it, in functions of integers with the rules of a profile.
 
 A number is a pair (mantissa, exponent) with the value ``mantissa * 10**(exponent - P)``.  The mantissa has P digits,
 the first of which is not zero, and the exponent is an integer from -99 to +99 (C26-5619 p. 13, 38).  The decimal point

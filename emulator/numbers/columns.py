@@ -1,4 +1,4 @@
-"""Convert numbers to card columns and back, on integers, by the rules of emulator/numbers/fields.py.
+"""Convert numbers to card columns and back by the rules of emulator/numbers/fields.py.
 
 Columns are a mutable sequence of ASCII codes.  The functions use only integers and loops, so that numba can compile
 them. The interpreter and the compiled engine share these functions.  Each status that the functions return is a number,

@@ -1,4 +1,4 @@
-"""Convert numbers to card columns and back as IBM's library of 1962 does, on integers.
+"""Convert numbers to card columns and back as IBM's library of 1962 does.
 
 The rules were measured by running the library (docs/reference/ibm-library.md).  Columns are a mutable sequence of ASCII
 codes.  The functions use only integers and loops, so that numba can compile them, as in emulator/numbers/columns.py.

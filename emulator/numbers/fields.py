@@ -1,10 +1,10 @@
 """The E, F and I fields of a FORMAT: conversion between numbers and the text of card columns.
 
 Output (C26-5619 p. 38-40): an E field truncates and never rounds, a number too large for its field is written as E14.8,
-and an I field loses high-order digits.  Input (p. 14, 35-38): a punched point overrides that of the FORMAT, digits
-beyond those of the profile are truncated, and a minus zero keeps its sign (thesis p. 109, last line of example 4).
-OPEN-QUESTIONS 6 treats blanks in a number.  emulator/numbers/columns.py does the conversion on character codes; this
-module adds strings and messages.
+and an I field drops the high-order digits of a number too large for it.  Input (p. 14, 35-38): a punched point
+overrides that of the FORMAT, digits beyond those of the profile are truncated, and a minus zero keeps its sign (thesis
+p. 109, last line of example 4).  OPEN-QUESTIONS 6 treats blanks in a number.  emulator/numbers/columns.py does the
+conversion on character codes; this module adds strings and messages.
 """
 
 from __future__ import annotations

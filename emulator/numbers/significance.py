@@ -8,11 +8,12 @@ Let m be the mean of N values, s their standard deviation (with the divisor N - 
   95 % and N - 1 degrees of freedom (J. Vignes, Math. Comput. Simulation 35 (1993) 233-261).  A number with fewer than
   half a digit is a *computational zero*: no digit of it is significant.  CADNA rounds the estimate to an integer and
   prints such a number as ``@.0``.  Vignes himself calls a number a computational zero if its estimate is at most 0.
-- *Sohier*: the number of digits of one run that are right with probability 95 %.  The number itself is a bound that
-  holds with confidence 95 % if the errors are normally distributed: ``-log10(r) - log10((N - 1) / c) / 2 - log10(z)``,
-  where c is the 2.5 % quantile of the chi-square distribution and z the 97.5 % quantile of the normal one (D. Sohier et
-  al., Confidence intervals for stochastic arithmetic, ACM Trans. Math. Softw. 47 (2021) 10, section 4).  The package
-  ``significantdigits`` computes s with N instead of N - 1, so its result is larger by ``log10(N / (N - 1)) / 2``.
+- *Sohier*: the number of digits of one run that are right with probability 95 %.  The number itself is a lower bound
+  that holds with confidence 95 % if the errors are normally distributed.  It is
+  ``-log10(r) - log10((N - 1) / c) / 2 - log10(z)``, where c is the 2.5 % quantile of the chi-square distribution and z
+  the 97.5 % quantile of the normal one (D. Sohier et al., Confidence intervals for stochastic arithmetic, ACM Trans.
+  Math. Softw. 47 (2021) 10, section 4).  The package ``significantdigits`` computes s with N instead of N - 1, so its
+  result is larger by ``log10(N / (N - 1)) / 2``.
 
 Every estimate is at least 0 and at most the number of digits of the arithmetic.
 """

@@ -1,4 +1,4 @@
-"""Translate a program to the machine code that IBM's compiler of 1962 generated, as its object deck shows it.
+"""Translate a program to machine code as IBM's compiler of 1962 did, by rules taken from its only known object deck.
 
 Every statement begins at an even position.  If the code before it has an odd number of digits, a record mark follows
 that code.  A branch to a statement goes first to the field of the statement's number.  This field holds a second

@@ -104,7 +104,7 @@ def exact_hull(points: Points, fast: bool | None = None) -> ExactHull:
     facets: list[Facet] = []
 
     def classified(dimension: int, facets: Sequence[Facet], boundary: Ints) -> ExactHull:
-        """Return the hull, not yet proved, with the class of each point.  Indices are those of distinct points."""
+        """Return the hull, not yet proved, with the class of each point.  The arguments index the distinct points."""
         vertices = np.flatnonzero(np.bincount(_corners(facets) if len(facets) else [0]))
         inside = np.ones(len(distinct), np.bool_)
         inside[vertices] = False

@@ -167,7 +167,8 @@ class _Proof:
     def wall_sign(self, triangle: int, edge: int, place: Floats | int) -> int:
         """Return the exact sign that shows on which side of a cone's wall a point lies.
 
-        ``place`` is the index of the point, or its coordinates in the unit box.
+        The wall is the plane through o and an edge of the triangle.  ``place`` is the index of the point, or its
+        coordinates in the unit box.
         """
         o, weight = self.middle
         corners = self.cones.corners[triangle].tolist()

@@ -91,7 +91,7 @@ def corners_only(cycle: Sequence[int], points: Sequence[IntPoint]) -> list[int]:
 
 
 def _outline(triangles: Iterable[tuple[int, ...]]) -> list[int]:
-    """Return the corners of the polygon that coplanar triangles form together, in their sense of rotation."""
+    """Return the corners of the polygon that coplanar triangles form, counterclockwise if the triangles are."""
     edges = {edge for a, b, c in triangles for edge in ((a, b), (b, c), (c, a))}
     # An edge inside the polygon occurs in both directions.
     following = {a: b for a, b in edges if (b, a) not in edges}

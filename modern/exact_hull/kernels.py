@@ -2,7 +2,8 @@
 
 The algorithm is that of Barber, Dobkin and Huhdanpaa, ACM Transactions on Mathematical Software 22 (1996), 469-483.  A
 point that is not yet in the hull waits in the linked list of a triangle that it sees (is outside of), and the farthest
-point of a list is inserted next.  When a triangle is removed, its points are compared with the new triangles.
+point of a list is inserted next.  When a triangle is removed, the points in its list are compared with the new
+triangles.
 
 Signs are exact.  With h = 2**-53 a difference of doubles has a relative error of at most h.  A component of the vector
 product u x v, such as u2 v3 - u3 v2, has an error of at most 4h q, where q = |u2 v3| + |u3 v2|.  The product of this

@@ -43,8 +43,8 @@ class Facet:
 class Facets(LazyTuple[Facet]):
     """The facets of a hull as arrays.  An instance equals the tuple of the facets, which are made on access.
 
-    ``planes`` (m, 4) are Python integers. ``corners`` has the corners of all polygons in a row, and ``counts`` has the
-    number of corners of each polygon.
+    ``planes`` (m, 4) are Python integers. ``corners`` has the corners of all polygons, one polygon after another, and
+    ``counts`` has the number of corners of each polygon.
     """
 
     def __init__(self, planes: Objects, corners: Ints, counts: Ints) -> None:

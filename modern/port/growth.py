@@ -30,7 +30,7 @@ class Remaining:
         self.tried = 0
 
     def swapped(self, index: int) -> None:
-        """Update the keepers after the point at ``index`` became a vertex and exchanged places with the first point.
+        """Update the keepers after the remaining point at ``index`` became a vertex and the first one took its place.
 
         The index is negative if the point was a vertex before: in rounded arithmetic a vertex can lie outside the hull.
         """

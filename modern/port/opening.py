@@ -102,9 +102,9 @@ def all_within(arithmetic: Arithmetic, equation: tuple[Scalar, ...], values: Vec
 def open_hull(arithmetic: Arithmetic, points: PointTable, slack: Slack | None, text: bool = False) -> Opening:
     """Run program 1 on distinct points, and reorder them so that the points of the first hull come first.
 
-    The fourth point is the one at which the value of the plane's equation is farthest from zero (has the largest
-    square), as in the listing. If ``text`` is true, it is the one at which the value is largest, as in the text of the
-    thesis (p. 29).
+    The fourth point is the one at which the equation of the plane through the first three has the value farthest from
+    zero (with the largest square), as in the listing. If ``text`` is true, the fourth point is the one at which the
+    value is largest, as in the text of the thesis (p. 29).
     """
     count = len(points)
     zero = arithmetic.number(0)

@@ -39,14 +39,14 @@ def convex_hull(
     """Return the convex hull of points by Butler's procedure (thesis chapter 3; programs 1 to 3, chapter 5).
 
     :func:`hull1620.convex_hull` describes the parameters. ``epsilon`` is the tolerance e of the thesis's chapter 7 (p.
-    117): the value of an equation at an input point counts as zero from -e to +e. For ``"rel:E"``, e is E times the
-    equation's largest coefficient A, B or C. ``translate`` moves the origin to the inside point C, so that the sign of
-    the constant term decides how an equation is oriented (p. 118). If ``text`` is true, two steps follow the text of
-    chapter 3 instead of the listing: the choice of the fourth point (p. 29), and the order in which planes are replaced
-    if a point is outside several of them (p. 32). The corrections of the layer ``corrected`` are built in, and
-    :attr:`Hull.corrected` names those that changed a step. Raise PointsError for invalid points, HullRefused if no hull
-    was determined (unless ``on_refusal`` is ``"return"``), and RangeError if an intermediate result is too large for a
-    float. Raise ArgumentError for any other invalid argument, and if kernels were requested and numba is missing.
+    117): the value of an equation at an input point counts as zero if it is from -e to +e. For ``"rel:E"``, e is E
+    times the equation's largest coefficient A, B or C. ``translate`` moves the origin to the inside point C, so that
+    the sign of the constant term decides how an equation is oriented (p. 118). If ``text`` is true, two steps follow
+    the text of chapter 3 instead of the listing: the choice of the fourth point (p. 29), and the order in which planes
+    are replaced if a point is outside several of them (p. 32). The corrections of the layer ``corrected`` are built in,
+    and :attr:`Hull.corrected` names those that changed a step. Raise PointsError for invalid points, HullRefused if no
+    hull was determined (unless ``on_refusal`` is ``"return"``), and RangeError if an intermediate result is too large
+    for a float. Raise ArgumentError for any other invalid argument, and if kernels were requested and numba is missing.
     """
     expect(on_refusal, str, "on_refusal")
     if on_refusal not in ("raise", "return"):
