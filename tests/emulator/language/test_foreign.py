@@ -45,6 +45,7 @@ STATEMENTS = [
     ("IF(A.GT.B) GO TO 5", "a logical IF belongs to FORTRAN IV"),
     ("IF(A.GT.B) X=1.", "a logical IF belongs to FORTRAN IV"),
     ("IF(L) STOP", "a logical IF belongs to FORTRAN IV"),
+    ("IF((L)) STOP", "a logical IF belongs to FORTRAN IV"),
     ("IF(A.EQ.1.E5.AND.B.LT.2.)X(1)=A(2)", "a logical IF belongs to FORTRAN IV"),
     ("L=A.GT.B.OR.C.LE.D", "a logical expression belongs to FORTRAN IV"),
     ("FREQUENCY 30(1,2,1)", "FREQUENCY"),

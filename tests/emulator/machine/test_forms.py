@@ -66,6 +66,21 @@ def test_formats_are_repeated() -> None:
     assert punched(*lines) == (" 7.",)
 
 
+@pytest.mark.parametrize(("form", "second"), [("(I3/I3)", 2), ("(I3//I3)", 3), ("(I3/2HAB/I3)", 3)])
+def test_ibm1962_reads_no_card_for_a_slash_before_an_unused_field(form: str, second: int) -> None:
+    """The library of 1962, measured (docs/reference/ibm-library.md): the next READ begins with card ``second``."""
+    lines = [f"1 FORMAT{form}", "2 FORMAT(2I3)", "READ 1,I", "READ 2,J", "PUNCH 2,I,J", "END"]
+    (card,) = punched(*lines, data=["  1", "  2", "  3", "  4"], arithmetic="ibm1962")
+    assert card[:6] == f"  1{second:3}"
+
+
+@pytest.mark.parametrize(("form", "fits"), [("(70X,I2)", True), ("(71X,I2)", False), ("(I2,70X)", True)])
+def test_ibm1962_reads_72_columns_of_a_card(form: str, fits: bool) -> None:
+    lines = [f"1 FORMAT{form}", "2 FORMAT(I3)", "READ 1,I", "PUNCH 2,I", "END"]
+    result = run(*lines, data=["12".rjust(72)], arithmetic="ibm1962")
+    assert (result.typed, len(result.punched)) == (((), 1) if fits else (("ERROR F9",), 0))
+
+
 def test_records_are_truncated_to_72_and_87_columns() -> None:
     """C26-5619 p. 43."""
     lines = ["PUNCH 1", "TYPE 1", "1 FORMAT(40H" + "A" * 40 + ",", "     1 40H" + "B" * 40 + ",", "     2 9HCCCCCCCCC)"]
