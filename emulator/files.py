@@ -157,8 +157,9 @@ UNFINISHED = ".unfinished-"
 def writing(path: str) -> Iterator[TextIO]:
     """Open an ASCII file for writing and replace the old file when the block ends without an error.
 
-    The text goes to a temporary file in the same folder, which is then renamed.  A symbolic link is followed and the
-    mode of an existing file is kept.  A device or pipe is written directly.  Raise FileError if writing fails.
+    The text goes to a temporary file in the same folder, and this file is renamed at the end.  A symbolic link is
+    followed and the mode of an existing file is kept.  A device or pipe is written directly.  Raise FileError if
+    writing fails.
     """
     open_arguments = {"mode": "w", "encoding": "ascii", "errors": "backslashreplace", "newline": ""}
     with _writing(path, sys.stdout, open_arguments) as file:
@@ -177,7 +178,7 @@ def writing_bytes(path: str, durable: bool = False) -> Iterator[BinaryIO]:
 
 @contextmanager
 def _writing(path: str, standard: Any, open_arguments: dict[str, str], durable: bool = False) -> Iterator[Any]:
-    """Implement :func:`writing`.  ``standard`` is standard output as a text or binary stream."""
+    """Implement :func:`writing` and :func:`writing_bytes`.  ``standard`` is standard output as the matching stream."""
     if path == "-":
         yield standard
         standard.flush()

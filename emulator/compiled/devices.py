@@ -297,7 +297,7 @@ def put(letter: int, line: Row, length: int, desk: Desk) -> int:
 
 
 def put_typed(line: Row, length: int, marks: Marks, desk: Desk) -> int:
-    """Write a typed line to the log: the number of its statement, the number of the last decision, and the text."""
+    """Write a typed line to the log: the numbers of its statement and of the last decision, and the text."""
     registers, log, used = desk.registers, desk.log, desk.devices[USED]
     if used + length + 2 + 2 * STAMP > len(log):
         return LOG_FULL

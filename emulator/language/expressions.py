@@ -235,10 +235,10 @@ class Emitter:
 
         Return True if the accumulator then holds the negative of the result.
 
-        ``waiting`` is the left operand while it is in a field.  A right operand that must be computed needs the
-        accumulator, so the left operand stays in a field, if necessary a temporary one, and is then combined with the
-        accumulator.  ``minus`` is True if the code holds the negative of the left operand, ``negative`` if it holds
-        that of the right operand.
+        ``waiting`` is the left operand while it is in a storage field and not in the accumulator.  A right operand that
+        must be computed needs the accumulator, so the left operand stays in a field, if necessary a temporary one, and
+        is then combined with the accumulator.  ``minus`` is True if the code holds the negative of the left operand,
+        ``negative`` if it holds that of the right operand.
         """
         first, minus = _unsigned(expression.first)
         minus ^= isinstance(expression, Sum) and expression.minus

@@ -144,7 +144,7 @@ def _loop(ending: Ending) -> str:
 def looped(
     program: Program, limit: int, before: Sequence[int], counts: Sequence[int], decision: int, costly: int = 0
 ) -> Ending:
-    """Return the ending of a run that reached its limit of work, with the loop of statements that it last executed."""
+    """Return the ending of a run that reached its limit of work, with the statements of its last loop."""
     # A statement is part of the loop if its count has grown since ``before``, the counts shortly before the limit.
     ran = [
         (program.statements[counter.statement], new - old)

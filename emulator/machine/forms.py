@@ -48,7 +48,7 @@ class Layout:
 
 @dataclass
 class _Walk(ABC):
-    """A statement's progress through its FORMAT, for input and output alike."""
+    """The progress of an input or output statement through its FORMAT."""
 
     layout: Layout
     at: int = field(default=0, init=False)
@@ -110,7 +110,7 @@ class Output(_Walk):
     _parts: list[str] = field(default_factory=list)
 
     def next_field(self) -> Field:
-        """Write text and complete records up to the next number field, and return it.  Raise NoField if none exists."""
+        """Write text and complete records up to the next number field.  Return this field, or raise NoField."""
         return self._to_field()
 
     def write(self, columns: str) -> None:

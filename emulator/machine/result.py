@@ -32,8 +32,8 @@ class Options:
     core
         Positions of core storage.
     bounds
-        With ``strict`` a subscript outside its array ends the run.  With ``core`` it reaches the neighbouring field, as
-        on the machine.
+        With ``strict`` a subscript outside its array ends the run.  With ``core`` such a subscript reaches a
+        neighbouring field, as on the machine.
     limit
         The work after which a run ends.  Each statement, pass of an indexed list, number read or written, and record is
         one unit; an operation that takes longer than a statement is several (:mod:`emulator.numbers.work`).

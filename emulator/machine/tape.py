@@ -1,9 +1,10 @@
 """A tape: the floating-point operations and decisions of a run, as a program without branches that can be repeated.
 
-A run is recorded once in the machine's own arithmetic.  Repeated in another arithmetic, the same operations follow the
-branches that the machine took, even if the other arithmetic would decide differently.  So each decision can be judged
-separately: the value that it tests is known in every arithmetic, after the same operations (synchronous execution; J.
-Vignes, A stochastic arithmetic for reliable scientific computation, Math. Comput. Simulation 35 (1993) 233-261).
+A run is recorded once in the machine's own arithmetic.  If the operations are repeated in another arithmetic, they
+follow the branches that the machine took, even if the other arithmetic would decide differently.  So each decision can
+be judged separately: the value that it tests is known in every arithmetic, after the same operations (synchronous
+execution; J.  Vignes, A stochastic arithmetic for reliable scientific computation, Math. Comput. Simulation 35 (1993)
+233-261).
 
 The tape holds sums, differences, products, quotients and changes of sign.  Numbers read from cards, constants and
 converted integers are its leaves: every arithmetic begins with the values that they have in the machine.
@@ -76,7 +77,7 @@ class Tape:
         return self.mantissas[place], self.exponents[place]
 
     def until(self, last: int) -> Tape:
-        """Return the tape shortened to the operations that its first ``last`` tests depend on."""
+        """Return the tape up to the test with index ``last``, without later tests and operations."""
         tests = self.tests[: last + 1]
         end = max((test.place for test in tests), default=-1) + 1
         code = self.operations[:end], self.firsts[:end], self.seconds[:end]

@@ -103,7 +103,7 @@ def whole_power(mantissa: int, exponent: int, count: int, rules: Rules) -> State
 
 
 def negate(m: int, e: int) -> tuple[int, int]:
-    """Return the accumulator (FAC) with its sign reversed, also that of a zero."""
+    """Return the accumulator (FAC) with its sign reversed, even if it holds a zero."""
     if m == 0:
         return 0, (MINUS_ZERO if e == ZERO else ZERO)
     return -m, e

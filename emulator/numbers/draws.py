@@ -9,8 +9,9 @@ Three rules of rounding are defined.  f is the part of a result beyond its last 
 
 - ``CESTAC``: round away from zero with probability 1/2, otherwise toward zero (J. Vignes, A stochastic arithmetic for
   reliable scientific computation, Math. Comput. Simulation 35 (1993) 233-261; the rule of CADNA).
-- ``OPPOSITE``: the opposite of what ``CESTAC`` does with the same random number.  CADNA rounds the third of its three
-  runs as the opposite of the second, so that one inexact operation always makes two runs differ.
+- ``OPPOSITE``: round in the direction opposite to that of ``CESTAC`` with the same random number.  CADNA rounds each
+  operation of its third run in the opposite direction to its second run, so that one inexact operation always makes two
+  runs differ.
 - ``PROPORTIONAL``: round away from zero with probability f, so that the expected error is zero.  This is the random
   rounding (RR) of Monte Carlo arithmetic (D. S. Parker, Monte Carlo arithmetic, UCLA CSD-970002, 1997) and the
   stochastic rounding (SR) of M. Croci et al., Stochastic rounding: implementation, error analysis and applications,

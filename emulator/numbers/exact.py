@@ -2,7 +2,8 @@
 
 A number is an int, a Fraction or a RootSum.  The following operations are exact: ``+ - *``, division by a rational
 number or by a sum of two roots, SQRT of a rational number, integer powers, and the other functions at the few arguments
-at which their value is rational.  Any other operation ends the run.  Zeros have signs as on the 1620.
+at which their value is rational.  Any other operation raises Undecided, which ends the run.  Zeros have signs as on the
+1620.
 """
 
 from __future__ import annotations

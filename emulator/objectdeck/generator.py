@@ -142,7 +142,7 @@ class _Generator:
         self._put(code)
 
     def _with_bound(self, immediate: str, direct: str, target: str, bound: int, wide: bool = False) -> str:
-        """Return an instruction that combines the field at ``target`` with a constant or variable bound of a DO.
+        """Return an instruction whose operands are the field at ``target`` and a bound of a DO (constant or variable).
 
         The instruction has the operation code ``immediate`` if the bound is a constant, ``direct`` if it is a variable.
         """

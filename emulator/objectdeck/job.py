@@ -1,8 +1,8 @@
 """Export a program as a job for one of two compilers of the 1960s: FORTRAN II-D under Monitor I, or PDQ FORTRAN.
 
 A job is a folder of text files for the 1620 simulator of SIMH.  The folder contains no code of IBM's: the operator adds
-the compiler.  The program is exported card by card.  A card is changed only if the compiler does not accept it, and
-:attr:`Job.changes` records each change.  The rules were found by running both compilers under Open SIMH.
+the compiler.  The program is exported card by card.  The export changes a card only if the compiler does not accept the
+card, and records each change in :attr:`Job.changes`.  The rules were found by running both compilers under Open SIMH.
 """
 
 import re
@@ -165,7 +165,7 @@ def _fitted(name: str, card: Card, source: Source | None, compiler: Compiler) ->
 
 
 def _image(name: str, card: Card) -> str:
-    """Return a card in the characters that the simulator reads, which have the same punches.  Raise CardError."""
+    """Return a card in the simulator's characters for its punches.  Raise CardError if a character has none."""
     text = RECORD_MARK.sub("|", card.text).replace("'", "@")
     for column, char in enumerate(text, 1):
         if char not in READABLE:

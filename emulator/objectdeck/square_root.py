@@ -90,7 +90,7 @@ def square_root(start: int) -> str:
 
 
 def _operand(text: str, places: dict[str, int]) -> str:
-    """Return the five digits of an operand of an instruction, given by name or as digits."""
+    """Return the five digits of an instruction's operand.  ``text`` is the name of a position or the digits."""
     name, _, offset = text.lstrip("@=").partition("+")
     if name[0] in d.FLAGGED + "0123456789":
         return text

@@ -1,8 +1,8 @@
 """Convert object code to steps (assignments, decisions, input and output) from which C or Fortran is written.
 
 The instructions of a statement are executed with expressions in place of numbers in the accumulator.  So every
-expression has the operations of the object code in their order, and the signs of zeros agree with those of the
-emulator.
+expression has the operations of the object code in the order of the object code, and the signs of zeros agree with
+those of the emulator.
 """
 
 from __future__ import annotations

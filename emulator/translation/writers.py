@@ -1,8 +1,8 @@
 """Write a program as C or Fortran source text, which begins with a runtime for devices and FORMATs.
 
-Both languages keep the statement numbers as labels.  A fixed-point result is truncated to four digits, a subscript is
-checked, and a decision calls a function of the runtime, which can write the decision to a file.  The files
-``runtime.c`` and ``runtime.f90`` next to this module implement the devices and FORMATs.
+Both languages keep the statement numbers as labels.  The written program truncates each fixed-point result to four
+digits, checks each subscript, and calls a function of the runtime for each decision.  This function can write the
+decision to a file.  The files ``runtime.c`` and ``runtime.f90`` next to this module implement the devices and FORMATs.
 """
 
 import re

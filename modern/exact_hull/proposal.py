@@ -305,7 +305,7 @@ class _Growing:
         return nominee[at], at
 
     def _regions(self, nominated: Ints, at: Ints) -> tuple[Ints, Ints, Ints, Ints, Ints]:
-        """Return the triangles that each nominated point is outside of, and the edges around them, its horizon.
+        """Return the triangles that each nominated point is outside of, and the edges around them (the horizon).
 
         The result has pairs (rank, triangle) and triples (rank, triangle, edge).  The rank is an index into
         ``nominated``.

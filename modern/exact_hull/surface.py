@@ -3,12 +3,13 @@
 The algorithm is the randomised insertion of Clarkson and Shor (Discrete & Computational Geometry 4 (1989), section 3).
 In the variant used here, every point that waits outside remembers *one* triangle that it sees.  All signs are exact.
 
-A point "sees" a triangle if it is strictly outside its plane.  A triangle whose plane contains the point stays.
-Therefore a point sees either all triangles of a face or none of them.  The triangles that a point sees are also those
-that it would see after a slight move towards the inside of the hull.  They form a disc, whose border (the horizon) is
-one simple cycle.  No edge of the horizon is in line with the new point, since otherwise the plane of the seen triangle
-at that edge would contain the point.  So no triangle without area arises.  Triangles may share a plane, and a former
-corner may end up inside a face or an edge.  ``facets.faces`` merges such triangles at the end.
+A point "sees" a triangle if it is strictly outside its plane.  If the plane of a triangle contains the point, the point
+does not see the triangle, which therefore stays.  So a point sees either all triangles of a face or none of them.  The
+triangles that a point sees are also those that it would see after a slight move towards the inside of the hull.  They
+form a disc, whose border (the horizon) is one simple cycle.  No edge of the horizon is in line with the new point,
+since otherwise the plane of the seen triangle at that edge would contain the point.  So no triangle without area
+arises.  Triangles may share a plane, and a former corner may end up inside a face or an edge.  ``facets.faces`` merges
+such triangles at the end.
 
 Signs are first computed with the filter of ``planes``.  A sign that the filter does not decide is computed in integers.
 """

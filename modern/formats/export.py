@@ -46,7 +46,7 @@ def format_of(path: str) -> str:
 
 
 def write_hull(hull: Hull, path: str, form: str | None = None, digits: int | None = None) -> None:
-    """Write a hull to a file, or to standard output for ``-``, in the format ``form`` or that of the extension.
+    """Write a hull to a file, or to standard output for ``-``, in the format ``form``, or else that of the extension.
 
     An existing file is replaced only after all of the text was written.  Raise ExportError if the format cannot hold
     the hull, and FileError if the file cannot be written.

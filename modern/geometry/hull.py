@@ -22,7 +22,7 @@ T = TypeVar("T")
 
 
 class LazyTuple(Sequence[T]):
-    """A sequence of known length, computed when it is first accessed.  It equals the tuple of its members."""
+    """A sequence of known length, which is computed when it is first accessed.  It equals the tuple of its members."""
 
     def __init__(self, count: int, make: Callable[[], Iterable[T]]) -> None:
         self._count = count

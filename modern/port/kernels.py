@@ -1,11 +1,11 @@
 """The loop of program 3, which adds vertices to the first hull H_1, compiled by numba for floating-point numbers.
 
 The steps, decisions and numbers are those of :mod:`modern.port.growth` and :mod:`modern.port.polyhedron`, and the
-formulas are the same functions. A stage is the addition of one vertex. The kernel leaves three kinds of exceptional
-stages to these two modules: a stage that ends without a hull, a stage that is the first to need one of two corrections
-of the listing, and a stage whose new vertex is already a vertex. The first correction concerns pairs of equal planes,
-and the second concerns planes through the inside point C. For an exceptional stage the kernel returns UNUSUAL and
-changes only the number of the equation to check.
+formulas are computed by the same functions. A stage is the addition of one vertex. The kernel leaves three kinds of
+exceptional stages to these two modules: a stage that ends without a hull, a stage that is the first to need one of two
+corrections of the listing, and a stage whose new vertex is already a vertex. The first correction concerns pairs of
+equal planes, and the second concerns planes through the inside point C. For an exceptional stage the kernel returns
+UNUSUAL and changes only the number of the equation to check.
 """
 
 from typing import Any

@@ -58,7 +58,7 @@ def fixed_arithmetic(name: str) -> Arithmetic | None:
 
 
 def take(points: Points, name: str, wide: bool = False) -> tuple[Arithmetic, Vector]:
-    """Return the named arithmetic, and the points as three rows of its numbers.
+    """Return the named arithmetic, and the points as an array of its numbers with the rows x, y and z.
 
     If ``wide`` is true, exact arithmetic does not use int64.
     """

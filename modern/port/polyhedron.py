@@ -206,7 +206,7 @@ def strike_repeats(table: Equations, on: On, count: int, progress: growth.Progre
 
 
 def _not_triangular(on: On, defining: NDArray[np.int64]) -> list[int]:
-    """Return the indices of the equations, except the first, that hold at more than their three defining points."""
+    """Return the indices of the equations, except the first, that hold at points besides their three defining ones."""
     three = np.flatnonzero(np.fromiter(map(len, on), np.int64, len(on)) == 3)
     only_defining = np.zeros(len(on), np.bool_)
     if three.size:
