@@ -160,19 +160,19 @@ def triangles_of_360_corners() -> Check:
 def cell_list() -> Check:
     """Check that the vertices, edges and faces of Tables 1 to 3 agree: every edge is on two vertices and two faces."""
     printed = corrected_print("kovalevsky-schulz")
-    ends = {e: (s, t) for e, s, t, _, _ in map(numbers_in, printed["table2"])}
-    sides = Counter(face for row in printed["table2"] for face in numbers_in(row)[3:])
-    rings = [numbers_in(row)[2:] for row in printed["table3"]]
+    edges, faces = ([*map(numbers_in, printed[name])] for name in ("table2", "table3"))
     at = {n: {*numbers_in(row)[-3:]} for n, row in enumerate(printed["table1"], 1)}
     signed = {
-        n: {sign * e for e, pair in ends.items() for p, sign in zip(pair, (-1, 1), strict=True) if p == n} for n in at
+        n: {sign * e for e, *pair, _, _ in edges for p, sign in zip(pair, (-1, 1), strict=True) if p == n} for n in at
     }
-    passed = sorted(edge for ring in rings for edge in ring[1::2])
+    # Seen from outside, an edge runs counterclockwise around its left face, and its reverse around its right face.
+    passed = [(left, start, e) for e, start, _, left, _ in edges] + [(right, end, -e) for e, _, end, _, right in edges]
+    listed = [(n, *pair) for n, _, *ring in faces for pair in zip(ring[::2], ring[1::2], strict=True)]
     outcomes = [
         ("the signed edges at each vertex are those of Table 2", at == signed),
-        ("every face has three edges", sides == dict.fromkeys(range(1, len(rings) + 1), 3)),
-        ("the faces form a sphere", is_sphere(ring[::2] for ring in rings)),
-        ("the two faces of each edge pass it in opposite directions", passed == sorted((*ends, *(-e for e in ends)))),
+        ("every face has three edges", all(count == 3 == len(ring) / 2 for _, count, *ring in faces)),
+        ("the faces form a sphere", is_sphere(ring[::2] for _, _, *ring in faces)),
+        ("each edge runs from its start around its left face, and back around its right face", {*passed} == {*listed}),
     ]
     return satisfied("Tables 1 to 3", outcomes)
 

@@ -66,9 +66,8 @@ def triangle_area() -> Proof:
 def lines_and_planes() -> Proof:
     p, q, n = (point(name, 3) for name in "pqn")
     d, t, length = variables("d t l")
-    unit = {"unit": zero(dot(n, n) - 1)}
-    line, plane = {"line": zero(dot(n, minus(q, p)))}, {"plane": zero(dot(n, p) + d)}
-    other = {"other": zero(dot(n, q) + d)}
+    unit, line = {"unit": zero(dot(n, n) - 1)}, {"line": zero(dot(n, minus(q, p)))}
+    plane, other = {"plane": zero(dot(n, p) + d)}, {"other": zero(dot(n, q) + d)}
     along = tuple(a + t * b for a, b in zip(p, n, strict=True))
     way = minus(along, p)
     value_terms = term("plane"), term("unit", t)

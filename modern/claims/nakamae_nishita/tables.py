@@ -157,8 +157,9 @@ def formula_3_in_line(cases: int = CASES) -> Check:
     return check.unless(d == 0, "the sides from (0, 4) to (4, 4) and (2, 4) to (6, 4), which overlap although d is 0")
 
 
-@claim("nakamae-nishita.60", "nakamae-nishita.37")
-def formula_5() -> Check:
+@claim("nakamae-nishita.37", conclusion="the value of formula (5) is positive if the vertex is nearer than the face")
+@claim("nakamae-nishita.60", conclusion="formula (5) has the same sign, that of the nearer one, for all vertices of V'")
+def formula_5(conclusion: str) -> Check:
     x, p, q, r = (algebra.point(name, 3) for name in "xpqr")
     unit = algebra.polynomial(1)
     computed = height(plane_through(*((*corner, unit) for corner in (p, q, r))), (*x, unit))  # type: ignore[arg-type]
@@ -180,9 +181,7 @@ def formula_5() -> Check:
     # The corners of this face run clockwise as seen from above.
     face = plane_through((0, 0, 0, 1), (0, 4, 0, 1), (4, 4, 0, 1))
     above, on, below = (sign(height(face, (1, 2, z, 1))) for z in (1, 0, -1))
-    message = "the value of formula (5) is positive if the vertex is nearer than the face around its image; if the "
-    message += "contour of V encloses that of V', the value has the same sign for all vertices of V'"
-    check = proved(argument, [step.is_valid() for step in steps], message)
+    check = proved(argument, [step.is_valid() for step in steps], conclusion)
     return check.unless(above > on == 0 > below, "a vertex in the face, for which formula (5) is 0")
 
 

@@ -168,9 +168,7 @@ def new_planes(cases: int = CASES) -> Check:
         made = [frozenset(edge) | {after.vertices[-1]} for edge, count in edges.items() if count == 1]
         checks.append(Counter(map(frozenset, after.defining)) == Counter([*remaining, *made]))
     message = "hulls have the planes that the rule makes of the new point and the sides of the replaced planes, if two "
-    return all_hold(
-        SETS[3], cases, checks, f"{message}new planes with the same points in the same order are eliminated"
-    )
+    return all_hold(SETS[3], cases, checks, f"{message}new planes with the same points in one order are eliminated")
 
 
 @claim("thesis.97", full=300)

@@ -15,6 +15,7 @@ from modern.claims.evidence import Check, Generator, claim, exhausted, exhibited
 from modern.claims.hulls import exact_hull, octree_hull
 from modern.claims.sampled_sets import SETS, Point, counterexample_points, plane_through, plane_value, sampled_sets
 from modern.digital.solids import listed
+from modern.exact_hull import ExactHull
 from modern.geometry.mesh import sides
 from modern.geometry.vectors import dot
 from modern.papers.yau_srihari import OctreeHull, Printed
@@ -22,7 +23,7 @@ from modern.papers.yau_srihari.convexity import convex_deficiency, half_cell_exp
 from modern.papers.yau_srihari.hull import components
 from modern.papers.yau_srihari.octree import count, voxels_of
 from modern.papers.yau_srihari.quadtree import Leaf, graph_side, no_columns, written
-from modern.papers.yau_srihari.search import normal_of
+from modern.papers.yau_srihari.search import Search, normal_of
 
 SOLID: tuple[Point, ...] = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (2, 1, 0), (2, 1, 1), (2, 2, 1), (2, 2, 2), (1, 2, 2))
 
@@ -63,7 +64,7 @@ def _placed(voxels: tuple[Point, ...]) -> tuple[Point, ...]:
 
 @cache
 def _envelopes_agree(voxels: tuple[Point, ...]) -> bool:
-    """Return True if both envelopes have the exact hull's faces, and the filled array has the voxels in that hull."""
+    """Return True if both envelopes have the exact hull's faces, and the solid and its flat shadow have exact hulls."""
     points, hull = _placed(voxels), hull_of(voxels)
     judge = exact_hull(points)
     for envelope, sign in ((hull.lower, 1), (hull.upper, -1)):
@@ -72,11 +73,14 @@ def _envelopes_agree(voxels: tuple[Point, ...]) -> bool:
         for faces in (envelope.faces, [step.face for step in envelope.steps if step.face]):
             if {frozenset((x, y, sign * z) for x, y, z in face.vertices) for face in faces} != expected:
                 return False
-    scale = judge.scale
-    return all(
-        hull.filled[at] == all(scale * dot(f.plane[:3], at) + f.plane[3] <= 0 for f in judge.facets)
-        for at in np.ndindex(hull.filled.shape)
-    )
+    shadow = tuple(dict.fromkeys((x, y, 0) for x, y, _ in points))
+    return _fills(points, judge) and _fills(shadow, exact_hull([*shadow, *((x, y, 1) for x, y, _ in shadow)]))
+
+
+def _fills(voxels: tuple[Point, ...], judge: ExactHull) -> bool:
+    """Return True if the digital hull of a solid consists of the points of its array that are in a given hull."""
+    filled, planes = hull_of(voxels).filled, [facet.plane for facet in judge.facets]
+    return all(filled[at] == all(dot(p[:3], at) + p[3] <= 0 for p in planes) for at in np.ndindex(filled.shape))
 
 
 @claim("yau-srihari.66", name="bound")
@@ -95,7 +99,7 @@ def algorithm_as_printed(name: str) -> Check:
 
 @claim("yau-srihari.48", "yau-srihari.53", "yau-srihari.54", "yau-srihari.59", "yau-srihari.103", full=500)
 def envelopes_against_judge(cases: int = 3) -> Check:
-    message = "the envelopes are the lower and upper faces of the exact hull, and its digital points are between them"
+    message = "the envelopes are the lower and upper faces of the hull; it and flat hulls have the right digital points"
     return search(SOLIDS, _envelopes_agree, cases, message)
 
 
@@ -107,12 +111,21 @@ def digital_hull_by_envelopes(cases: int = 3) -> Check:
 
 @claim("yau-srihari.70", names="angle", full=400)
 @claim("yau-srihari.120", names="angle triangles", full=400)
-@claim("yau-srihari.68", names="angle bound", full=400)
 @claim("yau-srihari.125", names="marks", full=400)
 def corrected_step(names: str, cases: int = 2) -> Check:
     as_printed = {name: algorithm_as_printed(name) for name in names.split()}
     case = "; ".join(f"{name}: {step.message}" for name, step in as_printed.items())
     return envelopes_against_judge(cases).unless(not any(step.holds for step in as_printed.values()), case)
+
+
+@claim("yau-srihari.68", full=400)
+def rule_2(cases: int = 2) -> Check:
+    # A search at an edge of a face in the plane z = 10 x, over a square with the points (2, 0, 25) and (3, 0, 30).
+    of_edge, as_printed = Search((0, 0, 0), (0, 1, 0), (10, 0, -1), Printed()), corrected_step("angle bound", cases)
+    *corners, of_point = (of_edge.score(p) or 0 for p in ((2, 0, 25), (2, 1, 25), (3, 0, 25), (3, 1, 25), (3, 0, 30)))
+    is_needed = max(corners) < of_point == of_edge.bounds(25, 30, 2, 0, 2)[1]
+    case = f"{as_printed.evidence.violation}; and a square with a point whose angle is larger than those at its corners"
+    return envelopes_against_judge(cases).unless(is_needed and as_printed.evidence.violation, case)
 
 
 @claim("yau-srihari.36")
