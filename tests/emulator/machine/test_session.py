@@ -43,6 +43,15 @@ def test_a_session_halts_until_it_is_answered() -> None:
     assert made.advance(1_000) is ending
 
 
+def test_the_fields_of_the_next_line_are_known_before_it_is_typed() -> None:
+    made = session("ACCEPT 90,I,A,J,K,L", "90 FORMAT(2X,I3,2H, ,F5.1/1X,I2)", "END")
+    lines = ([("I3", 3, 3), ("F5.1", 8, 5)], [("I2", 2, 2)])
+    for number in range(4):  # The FORMAT, which describes two lines, is used twice.
+        made.advance(1_000)
+        assert made.expected_fields() == lines[number % 2]
+        made.act(Action("ENTER", text="    1    2.0"))
+
+
 @pytest.mark.parametrize("bad", ["   1   X", "   1   x", "99991-2-", "   *"])
 def test_a_bad_line_must_be_typed_again_and_has_no_effect(bad: str) -> None:
     made = session("K=7", *GAME, retypes=True)
