@@ -147,7 +147,7 @@ class _Translation:
             ),
             counters=tuple(code.counters),
             formats=tuple(self.formats.items()),
-            format_lines=tuple(self.format_lines.get(label, 0) for label in self.formats),
+            format_lines=tuple(self.format_lines[label] for label in self.formats),
             storage=code.allocator.storage(),
             statements=tuple(self.lines),
             verbs=VERBS,

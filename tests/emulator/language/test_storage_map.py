@@ -139,3 +139,12 @@ def test_core_mode_copies_a_number_of_the_other_mode() -> None:
         "END",
     ]
     assert punched(*lines, bounds="core") == ("1234",)
+
+
+def test_a_field_is_found_by_its_name() -> None:
+    storage = program("DIMENSION X(3),M(2,3)", "N=7", "X(1)=N", "M(2,2)=N", "A=2.", "END").storage
+    names = [storage.name_of(field) for field in range(storage.fields)]
+    assert {"X(3)", "M(1,2)", "M(2,3)", "N", "A"} < {*names}
+    named = [name for name in names if not name.startswith("constant")]
+    assert [storage.fields_of(name) for name in named] == [range(i, i + 1) for i, n in enumerate(names) if n in named]
+    assert [storage.fields_of(name) for name in ("X", "X(4)", "M(3,1)", "M(2)", "Z")] == [range(3), *[range(0)] * 4]
