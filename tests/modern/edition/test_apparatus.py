@@ -27,6 +27,42 @@ def test_every_page_is_marked(name: str, first: int, last: int) -> None:
     assert [int(n) for n in re.findall(r"^## page (\d+)$", text, re.M)] == list(range(first, last + 1))
 
 
+@pytest.mark.parametrize(
+    ("row", "page", "cards"),
+    [
+        ("P1-039", "66", "131+1"),  # a card that row P1-008 inserts
+        ("P1-041", "67-68", "146+1 to 154+4"),
+        ("P1-043", "64-74", "all cards"),
+        ("P1-044", "64-74", "100, FORMAT 1"),
+        ("P2-034", "80", "114, 114+1, 114+2"),
+        ("P3-040", "94", "110 to 110+3"),
+    ],
+)
+def test_a_row_names_its_pages_and_cards(row: str, page: str, cards: str) -> None:
+    found = programs.text(f"program{row[1]}").row(row)
+    assert (found.page, programs.cards_of(found)) == (page, cards)
+
+
+@pytest.mark.parametrize("name", programs.NAMES)
+def test_a_card_is_named_by_its_statement(name: str) -> None:
+    names, cards = programs.card_names(name), programs.committed(name).cards
+    for number, (card_name, card) in enumerate(zip(names, cards, strict=True)):
+        if card_name == "title":
+            assert card.text.startswith("C  ")
+        elif card_name.startswith("before "):
+            following = next(n for n in names[number:] if not n.startswith("before "))
+            assert card.text.startswith("C  ")
+            assert card_name == f"before {following}"
+        elif card_name[0].isdigit():
+            label, _, steps = card_name.partition("+")
+            first = number - int(steps or 0)
+            assert names[first : number + 1] == (label, *(f"{label}+{n}" for n in range(1, number - first + 1)))
+            assert cards[first].text.split()[0] == label
+        else:
+            word, _, label = card_name.partition(" ")  # DIMENSION, or FORMAT and its number
+            assert "".join(card.text.split()).startswith(label + word), card_name
+
+
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.id)
 def test_row_is_needed(row: Row) -> None:
     proof = check_row(row)
