@@ -45,22 +45,18 @@ def test_a_row_names_its_pages_and_cards(row: str, page: str, cards: str) -> Non
 
 @pytest.mark.parametrize("name", programs.NAMES)
 def test_a_card_is_named_by_its_statement(name: str) -> None:
-    names, cards = programs.card_names(name), programs.committed(name).cards
-    for number, (card_name, card) in enumerate(zip(names, cards, strict=True)):
-        if card_name == "title":
-            assert card.text.startswith("C  ")
-        elif card_name.startswith("before "):
-            following = next(n for n in names[number:] if not n.startswith("before "))
-            assert card.text.startswith("C  ")
-            assert card_name == f"before {following}"
-        elif card_name[0].isdigit():
-            label, _, steps = card_name.partition("+")
-            first = number - int(steps or 0)
-            assert names[first : number + 1] == (label, *(f"{label}+{n}" for n in range(1, number - first + 1)))
-            assert cards[first].text.split()[0] == label
-        else:
-            word, _, label = card_name.partition(" ")  # DIMENSION, or FORMAT and its number
-            assert "".join(card.text.split()).startswith(label + word), card_name
+    pairs = list(zip(programs.card_names(name), programs.committed(name).cards, strict=True))
+    comments = {number for number, (_, card) in enumerate(pairs) if card.text.startswith("C  ")}
+    for number in comments - {0}:
+        following = next(named for k, (named, _) in enumerate(pairs) if k > number and k not in comments)
+        assert pairs[number][0] == f"before {following}"
+    statements = [pair for number, pair in enumerate(pairs) if number not in comments]
+    for number, (card_name, _) in enumerate(statements):
+        named, _, steps = card_name.partition("+")  # a statement number, FORMAT and its number, or DIMENSION
+        first = number - int(steps or 0)
+        assert steps == "" or statements[number - 1][0] in (named, f"{named}+{int(steps) - 1}")
+        word, _, label = named.rpartition(" ") if named[-1].isdigit() else (named, "", "")
+        assert "".join(statements[first][1].text.split()).startswith(label + word)
 
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.id)
