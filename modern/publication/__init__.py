@@ -7,6 +7,6 @@ and ``pyz`` make the deposit. ``flow``, ``chart`` and ``chart_svg`` draw flow ch
 
 The other modules collect the facts that pages show, as frozen dataclasses without HTML. ``facing``, ``commentary``,
 ``moments``, ``uses``, ``measured`` and ``core`` describe the programs, and ``examples`` describes the printed examples.
-``numbered`` has the numbered lists in documents, ``steps`` has the pictures of papers, ``essay`` has the pictures of
-the home page, and ``figures`` has the results that documents quote.
+``numbered`` reads the numbered lists in documents, ``steps`` computes what the pictures of three papers show, ``essay``
+computes what the figures of the home page show, and ``figures`` collects the results that documents quote.
 """

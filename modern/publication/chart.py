@@ -75,7 +75,7 @@ class Landing:
 
 @dataclass(frozen=True, slots=True)
 class Page:
-    """A page: its boxes, the lines that leave them, and the connectors through which other jumps arrive."""
+    """A page: its boxes, the lines that leave them, and the connectors of jumps that arrive without a line."""
 
     height: int
     boxes: tuple[Placed, ...]
@@ -168,7 +168,7 @@ def _breaks(flow: Flow, height: int) -> list[tuple[int, int]]:
 
 @dataclass(frozen=True, slots=True)
 class _Rail:
-    """The vertical line that all jumps to a box share on one side, with the first and last box it passes."""
+    """The vertical line that all jumps to a box share on one side. It passes the boxes ``first`` to ``last``."""
 
     target: int
     side: Where
@@ -181,8 +181,9 @@ class _Plan:
     """The layout of a page before its lines are drawn.
 
     ``lanes`` has the lane of each rail by target and side, and ``landed`` has the boxes to which connectors lead. For
-    each box, ``turns`` has the vertical coordinate of the turn below the box, ``lands`` has that of the connector above
-    the box, and ``joins`` has that of the lower end of the box's rails.
+    each box, three lists have vertical coordinates: ``turns`` has that at which a line leaving the box downward turns
+    left or right, ``lands`` has that of the connector above the box, and ``joins`` has that at which the rails of jumps
+    to the box end.
     """
 
     height: int

@@ -1,7 +1,7 @@
 """The commentary on the programs: the purpose of each block of statements and the meaning of each variable.
 
-The texts are data, ``fortran_src/commentary/PROGRAM.toml``. A block contains the cards from one place to another.
-:mod:`modern.publication.facing` explains the places.
+The texts are data, ``fortran_src/commentary/PROGRAM.toml``. For each block, the file names the first and the last card.
+:mod:`modern.publication.facing` explains these names, which are called places.
 """
 
 from __future__ import annotations

@@ -1,9 +1,10 @@
 """The emulator in the browser: the HTML of its two pages, and the file with Python and the project that both load.
 
-The frames of the pages and the worker are in ``docs/console``, the scripts in ``docs/_static``. Python for the browser
-is the npm package ``pyodide``, which ``docs/console/package-lock.json`` pins. The project itself is loaded from its
-wheel, lark and mpmath from the installed packages. The script ``docs/console/compile.mjs`` compiles all modules for
-Python in the browser. Without the npm package or the wheel, the pages only show recorded runs.
+The HTML frames of the pages and the script of the web worker are in ``docs/console``. The other scripts are in
+``docs/_static``. Python for the browser is the npm package ``pyodide``, which ``docs/console/package-lock.json`` pins.
+The project itself is loaded from its wheel, lark and mpmath from the installed packages. The script
+``docs/console/compile.mjs`` compiles all modules for Python in the browser. Without the npm package or the wheel, the
+pages only show recorded runs.
 """
 
 import base64
@@ -60,7 +61,7 @@ _FRAME, _PACE = 1.0, 10
 
 
 def console_page() -> str:
-    """Return the HTML of the emulator's page, with a recorded run and programs in the style of the period."""
+    """Return the HTML of the emulator's page, with a recorded run and sample programs in the style of 1962."""
     about = {
         name: [[b.title, b.cards[0], b.cards[-1], b.text] for b in commentary(name).blocks] for name in programs.NAMES
     }
@@ -110,7 +111,7 @@ def recorded_run() -> Answer:
     """Return a recorded run of program 3 with example 5, which the page shows until Python is loaded.
 
     In the result, ``load`` is the answer to the request that loads the program. ``frames`` has an answer for each slice
-    of the run, which lasts some milliseconds.
+    of the run. A slice covers about one second on the 1620.
     """
     desk = Desk(clock=lambda: 0.0, small=10)
     load = desk.load({"program": "program3", "deck": "example5/punched"})

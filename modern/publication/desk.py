@@ -1,10 +1,10 @@
 """The interface between the emulator and the page that controls it: load a program and a deck, run, and operate.
 
 Requests and answers are plain data that JSON can represent. The page is ``docs/console``. The machine runs in slices of
-some milliseconds. The operator has the same questions, commands and log as on the command line
-(:mod:`emulator.machine.operator`). Python in the browser cannot wait for the visitor: if the machine halts and the
-visitor has not answered, the slice ends, and the next slice continues from the halt. To go back, a new session repeats
-the log up to an earlier statement.
+some milliseconds. The machine asks the operator the same questions, and the operator has the same commands and the same
+log as on the command line (:mod:`emulator.machine.operator`). Python in the browser cannot wait for the visitor: if the
+machine halts and the visitor has not answered, the slice ends, and the next slice continues from the halt. To go back,
+a new session repeats the log up to an earlier statement.
 """
 
 import io
@@ -89,7 +89,8 @@ class _Loaded:
 class Desk:
     """A machine with program, decks and operator.
 
-    ``clock`` returns the time in seconds. During a run it is read after every ``small`` operations.
+    ``clock`` returns the time in seconds. During a run, the clock is read each time the run has done the work
+    ``small``.
     """
 
     clock: Callable[[], float] = time.monotonic
@@ -183,16 +184,16 @@ class Desk:
         values:
 
         ``events`` lists the events of this part of the run, each as kind and text. ``card`` is the card that is
-        executed next, ``statement`` is its number in the run, and ``read`` is the number of cards read. ``time`` is the
-        time on a 1620 with its bounds, and ``seconds`` is this time as a number. ``stands`` is the reason why the
-        machine waits, or empty. ``waits`` is ``typed`` if the machine waits for a line with ``fields``, ``answer`` if
-        it waits for an action, or empty. ``registers`` has the floating-point and the fixed-point accumulator.
-        ``picture``, ``stages`` (the number of hulls so far) and ``wrote`` (the fields written) come from
-        :mod:`modern.publication.panel`. A run that never ends is stopped, and ``repeats`` is the number of statements
-        that it repeats.
+        executed next, ``statement`` is the number of its statement in the run, and ``read`` is the number of cards
+        read. ``time`` is the time on a 1620 with the bounds of its error, as text, and ``seconds`` is this time as a
+        number. ``stands`` is the reason why the machine waits, or empty. ``waits`` is ``typed`` if the machine waits
+        for a line with ``fields``, ``answer`` if it waits for an action, or empty. ``registers`` has the floating-point
+        and the fixed-point accumulator. ``picture``, ``stages`` (the number of hulls so far) and ``wrote`` (the fields
+        written) come from :mod:`modern.publication.panel`. A run that returns to an earlier state would never end and
+        is stopped. ``repeats`` is then the number of statements that it repeats.
 
-        At the end of the run ``ended`` is true, ``messages`` has the messages of the command, ``next`` names the
-        program that reads the punched cards, and ``queued`` is true if a log has further loads.
+        At the end of the run ``ended`` is true, ``messages`` has the messages that ``hull1620 run`` would print,
+        ``next`` names the program that reads the punched cards, and ``queued`` is true if a log has further loads.
         """
         if (session := self._session) is None or self._ending:
             return self._answer()

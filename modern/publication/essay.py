@@ -53,10 +53,10 @@ def plane_values(arithmetic: str, points: Sequence[Sequence[int]]) -> tuple[str,
 
 
 def plane_row(x: int) -> tuple[str, ...]:
-    """Return results of :func:`plane_values` if the first point has this x.
+    """Return results of :func:`plane_values` for the home page's plane, whose first point has this x.
 
-    The results are the coefficient D, exact and with eight digits, and the three values of the equation with eight
-    digits.
+    The results are D in exact arithmetic, D in eight-digit arithmetic, and the three values of the equation in
+    eight-digit arithmetic.
     """
     points = ((x, *FIRST), *CORNERS)
     (exact, _), (machine, values) = (plane_values(name, points) for name in ("exact", "truncating"))

@@ -52,7 +52,7 @@ class Flow:
 
     @cached_property
     def arrivals(self) -> tuple[tuple[tuple[int, int], ...], ...]:
-        """The exits that lead to each box, as pairs of the index of a box and the index of its exit."""
+        """For each box, the exits that lead to it, as pairs: the index of the exit's box and the exit's index there."""
         arrivals: list[list[tuple[int, int]]] = [[] for _ in self.boxes]
         for place, box in enumerate(self.boxes):
             for k, way in enumerate(box.exits):
@@ -102,7 +102,7 @@ def _parts(program: Program) -> list[_Part]:
 
 
 def _box(program: Program, part: _Part, parts: Sequence[_Part]) -> Box:
-    """Return the box of one statement's instructions. In this step, exits name their targets by index in ``parts``."""
+    """Return the box of one statement's instructions. An exit names its target by the index in ``parts``."""
     index_of = {known.start: index for index, known in enumerate(parts)}
     code = program.code[part.start : part.end]
     last = code[-1]

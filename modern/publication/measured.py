@@ -27,10 +27,10 @@ DETECTED_BY = ("compiler", "print", "machine", "equation", "sibling", "nothing")
 class Run:
     """A run of one program in an example of the thesis.
 
-    ``executions`` and ``times`` (of the processor) have an entry for each executed card by its number. ``statements``
-    is the number of executed statements. ``processor`` is the processor time, and ``total`` is the time with reader,
-    punch and typewriter, without overlap. ``rows`` divide the total time by cause: first the causes in the processor,
-    then the devices.
+    ``executions`` has the number of executions of each executed card, and ``times`` has its processor time. The keys
+    are the numbers of the cards. ``statements`` is the number of executed statements. ``processor`` is the processor
+    time of the run. ``total`` is this time plus the times of reader, punch and typewriter. ``rows`` divide the total
+    time by cause: first the causes in the processor, then the devices.
     """
 
     example: int

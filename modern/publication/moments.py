@@ -209,7 +209,7 @@ def _projection(cloud: Sequence[Point]) -> tuple[Callable[[Point], tuple[float, 
 
 
 def _eye(points: Sequence[Vector]) -> Eye:
-    """Return a direction of view for points. If all points lie in a line or plane, it is perpendicular to this."""
+    """Return a direction of view for points. If all lie in a line or plane, the view is perpendicular to it."""
     apart = [line for point in points if any(line := minus(point, points[0]))]
     normal = next((n for line in apart if any(n := cross(apart[0], line))), None)
     if normal is None:

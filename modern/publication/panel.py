@@ -124,8 +124,8 @@ def field_at(session: Session, address: int, writers: dict[int, tuple[int, int]]
     """Return the field of data that contains an address, or an empty answer for another address.
 
     The answer has ``name``, ``addresses`` (first and last), ``value``, ``digits`` as the 1620 stores them, ``floating``
-    and ``writer``. ``digits`` is empty if the arithmetic is not that of the 1620. ``writers`` maps a field to the card
-    that last wrote it and the number of the writing statement in the run.
+    and ``writer``. ``digits`` is empty if the arithmetic is not that of the 1620. ``writers`` maps a field to a pair:
+    the card that last wrote the field, and the number of that execution among all statements executed in the run.
     """
     field = (session.options.core - 1 - FUNCTION_NAMES - address) // FIELD
     storage = session.program.storage
@@ -162,7 +162,7 @@ def compile_messages(text: str) -> list[list[Any]]:
 
 
 def formats(program: Program) -> list[list[Any]]:
-    """Return the FORMATs with which a program reads cards, each as a title and the fields of its first card."""
+    """Return the FORMATs with which a program reads cards: for each, a title and the fields of its first card."""
     numbers = {i.second: None for i in program.code if i.operation == op.BEGIN and program.verbs[i.address] == "READ"}
     read = (program.formats[number] for number in numbers)
     return [[f"FORMAT {label}", Layout(spec).record_fields(0)] for label, spec in read]
@@ -197,10 +197,9 @@ def written(session: Session, line: Line) -> Iterator[int]:
 class Record:
     """The record of a run. An instance is a tracer of :class:`emulator.machine.session.Session`.
 
-    ``times`` has the work done before each statement. ``writers`` maps a field to the card that last wrote it and the
-    number of the writing statement in the run. ``stages`` has the successive hulls as :func:`picture` returns them.
-    ``repeats`` is 0 until the run returns to an earlier state. Then ``repeats`` is the number of statements since that
-    state. Such a run never ends without an action of the operator.
+    ``times`` has the work done before each statement. ``writers`` is as in :func:`field_at`. ``stages`` has the
+    successive hulls as :func:`picture` returns them. ``repeats`` is 0 until the run returns to an earlier state. Then
+    ``repeats`` is the number of statements since that state. Such a run never ends without an action of the operator.
     """
 
     program: Program | None = None

@@ -36,9 +36,9 @@ def parted(text: str) -> dict[str, Any]:
 
     The answer has ``points`` as typed, the hull ``true`` and the hull ``found`` by the programs. Each hull has
     ``vertices`` (indices from 0) and ``faces`` (loops of indices). A polygon or a line is one face. ``says`` has
-    messages about the run. ``reason`` explains a run without a hull, and ``part`` names the first branch that exact
-    arithmetic takes differently, both in the sentences of ``hull --explain``. For invalid input the answer has only
-    ``refused``, a message.
+    messages about the run. ``reason`` explains why a run gave no hull, and ``part`` names the first decision at which
+    exact arithmetic takes another branch. Both have the wording of ``hull --explain``. For invalid input the answer has
+    only ``refused``, a message.
     """
     try:
         parsed = parse_bytes(text.encode(), "points")

@@ -144,8 +144,8 @@ def _at(a: Vector, b: Vector, share: Fraction) -> Vector:
 class Cells:
     """Pictures of a ball of voxels and its hull, and their numbers of cells.
 
-    ``counts`` has for each complex its name and the numbers of its 0-, 1-, 2- and 3-cells. ``hull`` is the cell list of
-    the hull with coplanar triangles merged.
+    ``counts`` has an entry for each cell complex: its name, and the numbers of its 0-, 1-, 2- and 3-cells. ``hull`` is
+    the cell list of the hull with coplanar triangles merged.
     """
 
     plates: tuple[Plate, ...]
@@ -210,7 +210,7 @@ def _cube(low: Iterable[int], side: int) -> Polyhedron:
 
 
 def _drawn(solids: list[Polyhedron], eye: Eye) -> tuple[Stroke, ...]:
-    """Draw solids without their hidden lines. If two solids touch, the edges of both are drawn."""
+    """Draw solids without their hidden lines. If two solids touch, a common edge is drawn once for each of them."""
     drawing = draw(solids, parallel(_vector(eye)), check=False)
     strokes: list[Stroke] = []
     for piece in drawing.pieces:

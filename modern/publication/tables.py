@@ -51,7 +51,7 @@ def csv_text(table: Sequence[Column]) -> str:
 
 
 def _parts(path: str, name: str, cells: Sequence[str]) -> list[Column]:
-    """Split one column of a report: the bounds of intervals and the ends of ranges get columns of their own."""
+    """Split one column of a report: the bounds of intervals and the ends of ranges become separate columns."""
     about = description(path, name)
     values = [cell for cell in cells if cell not in MISSING]
     if values and all(map(_INTERVAL.fullmatch, values)):

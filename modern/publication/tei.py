@@ -4,7 +4,7 @@ Every line of the witness is an ``ab`` element. By parallel segmentation, an ``a
 readings of a passage. Other elements hold changes that no source has: ``choice`` holds a modern patch, ``space`` holds
 blanks that the edition adds, and ``surplus`` holds blanks that the edition removes. ``seg`` holds a displaced piece,
 and a ``transpose`` element in the header names the ``anchor`` before which the piece belongs. Each row of the apparatus
-has one ``app`` with its reasons. If a row has no reading of its own, this ``app`` is in ``standOff``.
+has one ``app`` with its reasons. If no line has a reading of the row, this ``app`` is in ``standOff``.
 
 The module ``tei_schema`` describes every element, ``tei_header`` writes the header, ``tei_register`` writes the
 verdicts on the statements, and ``tei_reading`` restores witness, corrected text and cards from a document.

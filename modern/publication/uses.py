@@ -1,6 +1,6 @@
 """Cross references of a program: the jumps between its cards, and the cards that use each name and FORMAT.
 
-The module reads them from the syntax tree and runs no program.
+The module reads the references from the syntax tree and runs no program.
 """
 
 from collections.abc import Iterator

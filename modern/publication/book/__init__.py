@@ -1,5 +1,5 @@
 """The edition as a book: Typst typesets the documents and the data of the site as PDF/A.
 
 ``build`` has the list of chapters, ``parts`` makes the chapters generated from data, and ``markup`` translates Markdown
-to Typst.  A new chapter is a row of ``CHAPTERS`` in ``build``.
+to Typst.  To add a chapter, add a row to ``CHAPTERS`` in ``build``.
 """

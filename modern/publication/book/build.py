@@ -1,8 +1,8 @@
 """Typeset the book: ``python -m modern.publication.book.build dist/hull1620.pdf``.
 
 The text is written as Typst markup into a temporary folder, and the package ``typst``, whose wheel contains the
-compiler, makes PDF/A-2a from it.  The compiler reports violations of that standard that it can recognise.  System fonts
-are ignored and the date is that of the release, so that the same sources always give the same bytes.
+compiler, makes PDF/A-2a from it.  The compiler reports an error if it recognises a violation of that standard.  System
+fonts are ignored and the date is that of the release, so that the same sources always give the same bytes.
 """
 
 import re
@@ -79,7 +79,7 @@ FONTS = [str(Path(__file__).parent / "fonts"), str(ROOT / "modern" / "study" / "
 
 
 def documents() -> dict[str, str]:
-    """Return the Markdown of every document in the book by its path below ``docs``, with the figures filled in."""
+    """Return the Markdown of every document in the book by its path below ``docs``.  Quoted results are filled in."""
     values = figures(DOCS)
     names = [name for _, chapter in CHAPTERS for name in chapter if not name.startswith("@")]
     names += [f"studies/{folder.name}/report.md" for folder in sorted((DOCS / "studies").iterdir())]
@@ -93,10 +93,10 @@ def documents() -> dict[str, str]:
 
 
 def _subjects(texts: Mapping[str, str]) -> dict[str, str]:
-    """Return the terms of the book's index by two keys: the label in the glossary, and the word in lower case.
+    """Return the entries of the book's index.  The keys are labels of the glossary, and terms in lower case.
 
-    Both kinds of places in the text, links to a label and words, are indexed. A glossary term that occurs often is not
-    a key by its word, so that only links to its label are indexed.
+    Each link to such a label is indexed, and so is each occurrence of such a term.  A term of the glossary that occurs
+    more than ``_MOST_PLACES`` times has only its label as a key.
     """
     terms = re.findall(r"^## (.+)$", texts[_GLOSSARY], re.MULTILINE)
     labels = [place for place in places(_GLOSSARY, texts[_GLOSSARY]) if place != label(_GLOSSARY)]

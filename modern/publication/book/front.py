@@ -130,7 +130,7 @@ def _verdicts(save: SavePicture) -> str:
 
 
 def bibliography(literature: str, persons: Mapping[str, str]) -> Iterator[str]:
-    """Yield the documents of this edition, from SOURCES.toml, and then ``literature``, which is Typst markup.
+    """Yield the bibliography: the documents that SOURCES.toml lists, and then ``literature``, which is Typst markup.
 
     ``persons`` maps the surname of an author to the author's entry in the index.
     """

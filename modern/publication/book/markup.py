@@ -149,10 +149,10 @@ class Markdown:
     """A translator of one document from Markdown to Typst.
 
     ``name`` is the path of the document below ``docs``, and ``known`` has all labels of the book.  ``picture`` returns
-    Typst's name for the file of a picture, or "" if the book lacks the picture.  ``made`` returns the printed form of a
-    part of a page that the site generates from data.  ``subjects`` has the entries of the index by label and by name in
-    lower case, and ``names`` matches these names in a text.  If the document has the same title as its ``chapter``, the
-    title is not printed again.
+    the name under which Typst finds the file of a picture, or "" if the book lacks the picture.  ``made`` returns the
+    printed form of a part of a page that the site generates from data.  ``subjects`` has the entries of the index by
+    label and by name in lower case, and ``names`` matches these names in a text.  If the document has the same title as
+    its ``chapter``, the title is not printed again.
     """
 
     name: str

@@ -54,7 +54,8 @@ def fitted(svg: str) -> str:
 def listings() -> Iterator[str]:
     """Yield the listings of the programs with the commentary next to the cards, each followed by its textual notes.
 
-    For a variant of a program, only the passages in which a card differs from that program are shown.
+    For a variant of a program, such as program1_examples, only the blocks in which a card differs from that program are
+    shown.
     """
     for name in programs.NAMES:
         listing, entry = facing(name), programs.built_in(name)
@@ -158,7 +159,7 @@ def _ground(row: Row) -> str:
 
 
 def charts(save: SavePicture) -> Iterator[str]:
-    """Yield the flow charts of the listings. Each sheet of a chart has a separate page and almost its natural size."""
+    """Yield the flow charts of the listings, one sheet on each page, made smaller only if it is too high."""
     variants = [name for name in programs.NAMES if name not in programs.TEXTS]
     yield say(f"The site also shows the flow chart of {', '.join(variants)}.") + "\n\n"
     for name in programs.TEXTS:

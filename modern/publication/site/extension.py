@@ -191,7 +191,7 @@ class AccessibleTranslator(HTML5Translator):
     def visit_image(self, node: nodes.Element) -> None:
         """Link a picture to its file, which a phone can enlarge.
 
-        The dark theme inverts a picture that has no dark colours of its own.
+        The dark theme inverts the colours of a picture that defines no colours for a dark theme.
         """
         file = Path(self.builder.srcdir) / node["uri"]
         if file.suffix == ".svg" and "prefers-color-scheme" not in file.read_text(encoding="utf-8"):
@@ -203,7 +203,7 @@ class AccessibleTranslator(HTML5Translator):
             self.body.append("</a>")
 
     def visit_entry(self, node: nodes.Element) -> None:
-        """Close an empty heading cell as the data cell that :meth:`starttag` began."""
+        """End an empty heading cell with the tag of a data cell, because :meth:`starttag` began it so."""
         super().visit_entry(node)
         if isinstance(node.parent.parent, nodes.thead) and not node.astext():
             self.context[-1] = "</td>\n"

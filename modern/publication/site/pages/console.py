@@ -64,7 +64,7 @@ def _statement_link(divergence: str) -> str:
 
 
 def _worked(points: tuple[tuple[str, ...], ...]) -> str:
-    """Return as HTML, for each of four points, its exact value in the equation of the plane of the other three."""
+    """Return as HTML the exact value, at each of four points, of the equation of the plane through the other three."""
     exact = [coordinates(point) for point in points]
     rows = []
     for out in range(4):

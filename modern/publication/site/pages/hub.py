@@ -1,4 +1,4 @@
-"""The list of the pages below a page, with a sentence about the contents of each."""
+"""The list of the pages in a page's table of contents (toctree), with the first sentence of each."""
 
 import re
 

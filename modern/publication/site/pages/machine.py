@@ -1,4 +1,4 @@
-"""The storage maps and the composition of running time, drawn to scale, each with a table."""
+"""The storage maps, and the division of running times by component, drawn to scale, each with a table."""
 
 from collections.abc import Iterator
 
@@ -127,7 +127,7 @@ def map_svg(storage: CoreMap) -> str:
 
 
 def _labelled_addresses(storage: CoreMap) -> Iterator[int]:
-    """Yield the addresses that label the map: the start of each region up to the data, and the end of core."""
+    """Yield the addresses printed next to the map: the starts of code, free storage and data, and the end of core."""
     previous = ""
     for region in storage.regions:
         if region.kind in (core.SYSTEM, core.PROGRAM, core.FREE) or previous == core.FREE:

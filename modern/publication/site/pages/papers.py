@@ -90,7 +90,7 @@ def _solid(solid: Solid, number: str) -> str:
 
 
 def within(hull: Assembled) -> tuple[int, int]:
-    """Return the indices of the first two vertices that are not joined by an edge, by Appel and Will's test."""
+    """Return the indices of the first two vertices that Appel and Will's test shows not to be joined by an edge."""
     for pair in combinations(hull.vertices, 2):
         images = star(hull, pair).images
         if all(vorticity(a, b) > 0 for a, b in zip(images, (*images[1:], images[0]), strict=True)):
@@ -114,8 +114,8 @@ def _loop(hull: Assembled, number: int, loop: Loop) -> str:
 def loop_svg(hull: Assembled, number: int) -> str:
     """Draw the planar map of a hull's edges after a loop is closed (Appel and Will).
 
-    The surface of the loop is grey, and the number at each edge counts the loops so far that contain it. The largest
-    surface is the outside of the map, so its grey area surrounds the map.
+    The surface of the loop is grey. The number at each edge is the number of loops found so far that contain the edge.
+    The surface with most points is the outside of the map, so its grey area surrounds the map.
     """
     loop, surfaces = hull.table.loops[number - 1], hull.surfaces
     outer = max(range(len(surfaces)), key=lambda k: (len(surfaces[k]), -k))

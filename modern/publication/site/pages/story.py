@@ -1,4 +1,4 @@
-"""The figures of the home page's essay: a punched card, the growing hull, a plane that fails to vanish, and the cube.
+"""The figures of the home page's essay: a punched card, the growing hull, a plane with a rounding error, and the cube.
 
 Every figure is complete without JavaScript. The script ``story.js`` shows the stages one at a time and moves the
 slider.

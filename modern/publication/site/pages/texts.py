@@ -13,7 +13,7 @@ FILES = {"fortran_src/KNOWN-FAULTS.md": "fault", "fortran_src/OPEN-QUESTIONS.md"
 
 
 def make(argument: str) -> list[Part]:
-    """Return a section for each item of a file, for each document (``sources``) or for each error (``errors``)."""
+    """Return a section for each item of a numbered file, each document (``sources``) or each error (``errors``)."""
     if one_of(argument, ("sources", "errors", *FILES)) == "errors":
         return _errors()
     if argument == "sources":
@@ -45,7 +45,7 @@ def _errors() -> list[Part]:
 
 
 def _linked(item: Item) -> str:
-    """Return the text of an item with links to rows of the listings."""
+    """Return the text of an item, in which the ids of emendations of the listings are replaced by links."""
     content = item.text
     for row in item.rows:
         if row.startswith("P"):
