@@ -7,13 +7,14 @@ These steps add a fifth paper, ``NAME``. Commands and the registers of statement
    ``yau_srihari/printed.py`` does.
 2. ``transcripts/FOLDER/``, where FOLDER is NAME and the year, such as ``appel_will_1976``. (Only the folder
    ``kovalevsky_schulz`` has no year.) The folder holds three files: ``witness.txt`` has the printed values exactly as
-   the OCR text has them, ``apparatus.toml`` has the emendations, and ``results.toml`` tells which lines of the
-   corrected print form one published result. Add the source to ``fortran_src/SOURCES.toml``. A paper that prints no
+   the OCR text has them, ``apparatus.toml`` has the emendations, and ``results.toml`` lists, for each published result,
+   the lines of the corrected print that form it. Add the source to ``fortran_src/SOURCES.toml``. A paper that prints no
    values, such as Yau and Srihari's, skips steps 2 and 3.
-3. ``modern/papers/NAME/results.py``: the function ``produced``, which :data:`Lines` describes. Add a ``Paper`` to
-   ``PAPERS`` in ``modern/claims/published.py``. ``hull1620 reproduce NAME`` then compares the results with the print.
-4. ``transcripts/statements/NAME.toml``: a row for each statement of the paper with its verdict, and the name in
-   ``DOCUMENTS`` in ``modern/claims/register.py``. The functions that compute its verdicts are in
+3. ``modern/papers/NAME/results.py``: the function ``produced``, which the comment at :data:`Lines` describes. Add a
+   ``Paper`` to ``PAPERS`` in ``modern/claims/published.py``. ``hull1620 reproduce NAME`` then compares the results with
+   the print.
+4. ``transcripts/statements/NAME.toml``: a row for each statement of the paper with its verdict. Add NAME to
+   ``DOCUMENTS`` in ``modern/claims/register.py``. The functions that compute the verdicts go into
    ``modern/claims/NAME/``.
 5. ``modern/cli/NAME.py``: the command, with an entry in ``modern/cli/arguments.py``. For the completion in the shell,
    add NAME to ``DOCUMENTS`` and FOLDER to ``TEXTS`` in ``modern/cli/shared/arguments.py``.
@@ -25,8 +26,8 @@ These steps add a fifth paper, ``NAME``. Commands and the registers of statement
 
 Tests go into ``tests/modern/papers/``: ``test_NAME.py`` compares the algorithm with the exact hull or another
 independent method on random input, ``test_NAME_cli.py`` runs the command, and ``test_NAME_published.py`` tests
-``results.py``. ``test_published.py`` there and ``tests/modern/claims/test_register.py`` check every paper in
-``PAPERS`` and every row of the register without further entries.
+``results.py``. You need not change ``tests/modern/papers/test_published.py`` and
+``tests/modern/claims/test_register.py``, which check every paper in ``PAPERS`` and every row of the register.
 """
 
 from collections.abc import Mapping, Sequence

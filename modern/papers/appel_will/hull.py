@@ -23,11 +23,12 @@ class Method:
     ``printed`` names steps of the appendix that are wrong or unclear in the print. By default all are corrected, which
     reproduces all printed loops and finds all faces of any hull. A loop begins with two lines L1 and L2.
 
-    ``step3``: take the first admissible L2. The corrected step prefers an L2 whose direction has a positive dot product
-    with that of L1, as the main text requires of two lines that define a plane.
+    ``step3``: choose the first L2 that passes steps 4 to 7. The corrected step prefers an L2 whose direction has a
+    positive dot product with that of L1, as the main text requires of two lines that define a plane.
     ``step5``, ``step7``: "go back to step 2", which skips an L1 whose first L2 is rejected. The correct target is
     step 3.
-    ``step9``: exclude only L1 and L2 from the search for the next line, not the other lines already on the loop.
+    ``step9``: when searching for the next line of a loop, exclude L1 and L2, but not the other lines already on the
+    loop.
     ``step10``: "start another loop at step 1". Every loop then begins as if no line had been used. The correct target
     is step 2.
     """

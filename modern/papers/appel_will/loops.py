@@ -50,14 +50,13 @@ class LoopTable:
 
 @dataclass(frozen=True, slots=True)
 class Intersection:
-    """Two edges L1 and L2 with a common end point, the type of the intersection (Fig. 20), and the loop entries (Fig.
-    21).
+    """Two edges L1 and L2 with a common end point, the type of their intersection, and their two entries in a loop.
 
-    ``start`` and ``match`` are the other ends of L1 and L2. In type 1 both lines begin at the common point. In type 2
-    L1 begins and L2 ends at this point, in type 3 L1 ends and L2 begins at it, and in type 4 both end at it. The
-    drawings of Figs. 20 and 21 are lost. The text of Figs. 21 and 22 determines type 1 and the signs of its loop
-    entries. For the other types, the signs follow from the sense of the loop, and the project has chosen which of them
-    is called 2, 3 and 4.
+    ``start`` and ``match`` are the other ends of L1 and L2. Fig. 20 shows the four types, and Fig. 21 the entries. In
+    type 1 both lines begin at the common point. In type 2 L1 begins and L2 ends at this point, in type 3 L1 ends and L2
+    begins at it, and in type 4 both end at it. The drawings of Figs. 20 and 21 are lost. The text of Figs. 21 and 22
+    determines type 1 and the signs of its loop entries. For the other types, the signs follow from the sense of the
+    loop, and the project has chosen which of them is called 2, 3 and 4.
     """
 
     first: int
@@ -145,7 +144,7 @@ def _begin(table: _Table) -> Intersection | None:
 
 
 def _seconds(table: _Table, first: int) -> Iterator[Intersection]:
-    """Yield the intersection of edge ``first`` with each edge that can be the second of a new face (steps 3 to 7)."""
+    """Yield the intersection of edge ``first`` with each possible second edge of a new loop (steps 3 to 7)."""
     for second in range(len(table.edges)):
         if second == first or table.uses[second] == TIMES:
             continue

@@ -60,8 +60,9 @@ def solid_svg(
     """Return a picture of the hull and the other lines of the given polyhedron, with hidden edges dashed, as SVG text.
 
     ``points`` are the coordinates of the input as text. ``original`` are the surfaces of the given polyhedron, if
-    known. ``joined`` tells which faces of ``as_mesh(hull)`` are drawn as one face. ``eye`` and ``width`` are those of
-    ``modern.drawing.draw.draw_svg``. Raise ExportError if there is no hull, or if the view or the width is invalid.
+    known. ``joined`` tells which faces of ``as_mesh(hull)`` are drawn as one face. ``eye`` and ``width`` have the same
+    meaning as in ``modern.drawing.draw.draw_svg``. Raise ExportError if there is no hull, or if the view or the width
+    is invalid.
     """
     record = as_record(hull, points, joined)
     picture = filter_scene(scene(record, eye), Show())
@@ -95,7 +96,7 @@ def as_mesh(hull: Assembled, points: Sequence[Point]) -> Mesh:
 
 
 def as_record(hull: Assembled, points: Sequence[Point], joined: Joined | None = None) -> Record:
-    """Convert the assembled hull to the project's general type of hulls. Raise PictureError if it is not a hull."""
+    """Convert the assembled hull to a ``Record``, the type of hulls for output. Raise PictureError if it is no hull."""
     if hull.fault:
         raise PictureError(f"there is no hull to draw: {hull.fault}")
     surfaces = hull.outward() if joined is None else joined_surfaces(hull, joined)
@@ -144,8 +145,8 @@ class Star:
     """The star polygon of a line through two points, which decides if the line is an edge (Figs. 8 to 12).
 
     In the projection parallel to the line, the image of the line is the point C. ``line`` lists the points on the line
-    from end to end. ``order`` lists the other points by the angle of their images about C, and ``images`` these images
-    relative to C. ``outside`` is True if C is outside the star polygon, i.e. if the line is a convex edge.
+    from end to end. ``order`` lists the other points by the angle of their images about C, and ``images`` lists these
+    images relative to C. ``outside`` is True if C is outside the star polygon, i.e. if the line is a convex edge.
     ``clockwise`` has the index of the side that turns clockwise about C, or is empty if there is none.
     """
 

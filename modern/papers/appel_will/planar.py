@@ -1,9 +1,9 @@
 """Draw a polyhedron as a planar map: each face becomes a region, and the face with most points surrounds the others.
 
 This is Tutte's embedding. The points of the outer surface lie on a circle, and every other point lies at a weighted
-mean of its neighbours. For any positive weights no two lines cross and every region is convex. The program increases
-the weights of lines at the borders of large regions from round to round. This makes the sizes of the regions as equal
-as possible.
+mean of its neighbours. For any positive weights no two lines cross and every region is convex. The program computes the
+positions several times, and each time increases the weights of the lines around large regions. This makes the sizes of
+the regions more equal.
 
 References
 ----------

@@ -202,7 +202,7 @@ def _map_rows(hull: Assembled) -> Iterator[str]:
 
 
 def _from_lowest(surface: Surface) -> Surface:
-    """Return the points around a surface, from the lowest number on, in the direction of its lower neighbour."""
+    """Return the points around a surface, beginning with the lowest number, then the lower of its two neighbours."""
     start = surface.index(min(surface))
     cycle = surface[start:] + surface[:start]
     return cycle if cycle[1] < cycle[-1] else (cycle[0], *cycle[:0:-1])

@@ -67,11 +67,11 @@ def check_surfaces(count: int, surfaces: Sequence[Surface]) -> None:
 
 
 def oriented(points: Sequence[IntPoint], surfaces: Sequence[Surface]) -> tuple[Surface, ...]:
-    """Return the surfaces with their points counterclockwise as seen from outside. The first point of each stays.
+    """Return the surfaces with their points counterclockwise as seen from outside.
 
-    Raise MapError unless the surfaces form one closed polyhedron: every surface is plane, every line is on two
-    surfaces, all surfaces are connected, and they enclose a volume. The sign of the volume distinguishes inside from
-    outside.
+    The first point of each surface remains its first point. Raise MapError unless the surfaces form one closed
+    polyhedron: every surface is plane, every line is on two surfaces, all surfaces are connected, and they enclose a
+    volume. The sign of the volume distinguishes inside from outside.
     """
     check_surfaces(len(points), surfaces)
     surfaces_at: defaultdict[frozenset[int], list[int]] = defaultdict(list)

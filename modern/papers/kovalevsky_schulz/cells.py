@@ -120,7 +120,10 @@ def planes_of(points: Sequence[IntPoint], cycles: Sequence[Sequence[int]]) -> li
 
 
 def _shifted(points: Sequence[IntPoint], sizes: Numbers) -> tuple[IntPoint, Array]:
-    """Return the least coordinates, and the points relative to them, as int64 if all results computed from them fit."""
+    """Return the least x, y and z of the points, and an array of the points relative to them.
+
+    The array has the type int64 if no result that is computed from it can overflow, otherwise Python integers.
+    """
     x, y, z = (min(axis) for axis in zip(*points, strict=True))
     shifted = [(p[0] - x, p[1] - y, p[2] - z) for p in points]
     extent = max(map(max, shifted))
@@ -311,14 +314,14 @@ def cell_list_size(vertices: int, faces: int) -> int:
 
 
 def economical_size(cells: CellList) -> int:
-    """Return the exact number of integers that a short cell list stores: three per vertex, one per corner of a face."""
+    """Return the exact number that formula (6) estimates: 3 integers for each vertex, 1 for each corner of a face."""
     return 3 * len(cells.vertices) + sum(len(face.pairs) for face in cells.faces)
 
 
 def cube_triangles(voxel_faces: int) -> int:
     """Return the number of triangles that Marching Cubes creates for a voxel object with this number of outer faces.
 
-    Each outer face of a voxel contains one of the V vertices of the triangulation. The triangulation is a sphere, so by
+    The triangulation has one vertex on each outer face of a voxel, V vertices in total. It forms a sphere, so by
     Euler's formula it has 2 V - 4 triangles.
     """
     return 2 * voxel_faces - 4

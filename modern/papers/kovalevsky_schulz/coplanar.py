@@ -28,9 +28,10 @@ class MergedHull:
     """A hull whose coplanar faces are merged, and counts of the steps that computed it.
 
     Each face lists its vertices counterclockwise as seen from outside, beginning with the smallest index. ``created``
-    is the number of new faces, ``larger`` of those with more than three vertices, and ``merged`` of those that were
-    merged with a face of the same plane. ``extended`` is the number of extensions of a face to a new point of its
-    plane. ``straightened`` is the number of vertices removed because they lay in line with their neighbours.
+    is the number of new faces, ``larger`` is the number of new faces with more than three vertices, and ``merged`` is
+    the number of new faces that were merged with a face of the same plane. ``extended`` is the number of extensions of
+    a face to a new point of its plane. ``straightened`` is the number of vertices removed because they lay in line with
+    their neighbours.
     """
 
     faces: tuple[tuple[int, ...], ...]

@@ -51,7 +51,7 @@ def _with_corners(voxels: Voxels) -> Voxels:
 
 
 def _extra(volume: Volume, of: Of) -> int:
-    """Return the number by which grid points exceed voxels along each axis: 0 for centres, 1 for corners."""
+    """Return how many more grid points than voxels there are along each axis: 0 for centres, 1 for corners."""
     if volume.dimension != 3:
         raise VolumeError(f"{volume.source}: expected a volume of three dimensions, found two")
     if of not in (CENTRES, VERTICES):

@@ -68,8 +68,8 @@ def hull_cells(points: Points) -> CellList | Flat:
 
     The paper's procedure finds the same vertices in the same order, and the same faces, on two conditions: it inserts
     the points in raster order, and it counts a face whose plane contains the new point as visible. A point that is in
-    line or in a plane with later points then disappears, because all faces at this point are visible. Only the numbers
-    of the faces and edges differ.
+    line or in a plane with later points then disappears, because all faces at this point are visible. Only the
+    numbering of the faces and edges differs.
     """
     # Only the first and the last point of a column (the points with equal x and y) can be vertices of the hull.
     x, y, z = points[np.lexsort(points.T[::-1])].T
@@ -149,9 +149,9 @@ class VoxelHull:
     def mesh(self, straight: bool = False) -> Mesh:
         """Return the hull as a mesh whose coordinates are exact text.
 
-        If the position of the voxels is known, the coordinates are physical. Otherwise they are the paper's integers.
-        The faces are counterclockwise as seen from outside in these coordinates. With ``straight``, edges in one line
-        are merged. All vertices are then vertices of the hull.
+        If the position of the voxels is known, the coordinates are physical. Otherwise they are indices of voxels or
+        corners, which are integers as in the paper. The faces are counterclockwise as seen from outside in these
+        coordinates. With ``straight``, edges in one line are merged. All vertices are then vertices of the hull.
         """
         points, faces = self._polygons(straight)
         if self.world is None:

@@ -20,9 +20,9 @@ from modern.papers.kovalevsky_schulz.corners import CENTRES, VERTICES, Of
 def reconstructed(encoding: Economical, of: Of = VERTICES) -> Volume:
     """Return the voxels of the digital object whose hull is encoded.
 
-    ``of`` is ``centres`` or ``vertices``, for the points of the voxels whose hull is encoded. Raise CellListError for
-    an encoding that is not a convex polyhedron. Raise VolumeError for a polyhedron that is too large, or for a hull of
-    vertices that contains no voxel.
+    ``of`` is ``centres`` or ``vertices``: the hull is that of the voxels' centres or that of their corners. Raise
+    CellListError for an encoding that is not a convex polyhedron. Raise VolumeError for a polyhedron that is too large,
+    or for a hull of vertices that contains no voxel.
     """
     if of not in (CENTRES, VERTICES):
         raise ValueError(f"expected the hull of {CENTRES} or {VERTICES}, found {quoted(of)}")

@@ -30,9 +30,9 @@ IntPoint = tuple[int, int, int]
 class Reading:
     """The options with which a file of faces is read.
 
-    ``hull`` replaces each component by its hull. ``within`` merges faces within this distance of one plane. ``points``
-    accepts a file with points only, as ``hull`` does. Messages refer to ``hull`` and ``within`` by the texts
-    ``as_hull`` and ``as_within``.
+    If ``hull``, each component is replaced by its hull. ``within`` is a distance or None: faces within this distance of
+    one plane are merged. If ``points`` or ``hull``, a file may also contain only points. ``as_hull`` and ``as_within``
+    are the names of the options ``hull`` and ``within`` in messages.
     """
 
     hull: bool = False

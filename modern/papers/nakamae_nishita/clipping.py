@@ -56,7 +56,7 @@ def _depth(point: Vector, observer: Observer) -> Fraction:
 
 
 def _clipped(polyhedron: Polyhedron, depths: Sequence[Fraction], observer: Observer) -> Polyhedron:
-    """Return the part of a polyhedron beyond the near plane. Its last face is in that plane, except for a plate."""
+    """Return the part of a polyhedron beyond the near plane. Unless it is a plate, its last face lies in that plane."""
     points = list(polyhedron.vertices)
     # The index of the new vertex on every edge that the plane cuts. Two faces share each new vertex.
     cuts: dict[tuple[int, int], int] = {}

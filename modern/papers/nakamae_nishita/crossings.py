@@ -29,9 +29,10 @@ class Passage:
 
     @property
     def order(self) -> int:
-        """This contour's share of the order of invisibility (the number of contours that hide the segment's first end).
+        """1 if this contour hides the segment's first end, else 0.
 
-        It is 1 if the segment begins behind the contour and leaves it (index -1), otherwise 0.
+        The paper calls the sum of these numbers for all contours the order of invisibility. A contour hides the first
+        end if the segment begins behind the contour and leaves it (index -1).
         """
         return sum(index == -1 for _, index in self.marks)
 

@@ -28,7 +28,7 @@ REFINEMENTS = (ENCLOSED, TOUCHING, ENDS, GHOSTS)
 
 @dataclass(frozen=True, slots=True)
 class Relation:
-    """Two polyhedra V and V' that overlap in the picture: their numbers ``v`` and ``w``, and their tables.
+    """Two polyhedra V and V' that overlap in the picture: their numbers ``v`` and ``w``, and the tables PL and LP.
 
     ``nearer`` is 1 if V is nearer, -1 if V' is nearer, otherwise 0. ``by`` is the criterion that decided.
     """
@@ -81,8 +81,8 @@ class Drawing:
     """The result of hidden line elimination: the visible and hidden pieces of all edges, and intermediate results.
 
     ``seconds`` are the times of the paper's three steps: creating the polyhedra, classifying edges, eliminating hidden
-    lines. ``cut`` names the polyhedra that the near plane clips, and ``behind`` names the polyhedra on its near side,
-    which are omitted.
+    lines. ``cut`` names the polyhedra that the near plane clips, and ``behind`` names the polyhedra on the eye's side
+    of this plane, which are omitted.
     """
 
     observer: Observer

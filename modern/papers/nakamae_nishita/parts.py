@@ -107,7 +107,7 @@ def named(polyhedron: Polyhedron, name: str) -> Polyhedron:
 
 
 def make(item: Part) -> Iterator[Polyhedron]:
-    """Yield all copies of a part at their places. Raise SceneError for an invalid shape or figure."""
+    """Yield all copies of a part, each at its place in the scene. Raise SceneError for an invalid shape or figure."""
     shape = item.build(item.place)
     figures = tuple(_figure(item.place, shape, corners) for corners in item.figures)
     shape = replace(shape, thing=item.thing, figures=figures)

@@ -49,7 +49,7 @@ def outward(polyhedron: Polyhedron, face: tuple[int, ...]) -> Vector:
 def checked(polyhedron: Polyhedron) -> Polyhedron:
     """Prove that a polyhedron is closed and convex, and return it with its faces clockwise as seen from outside.
 
-    Raise SceneError otherwise. The message names the polyhedron and the invalid face or edge.
+    Raise SceneError if it is not closed or not convex. The message names the polyhedron and the invalid face or edge.
     """
     name, points, faces = polyhedron.name, polyhedron.vertices, polyhedron.faces
     if not faces:

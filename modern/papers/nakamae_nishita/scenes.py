@@ -91,7 +91,7 @@ def scene(name: str) -> SceneFile:
 def read(path: str) -> SceneFile:
     """Read a scene from a file. Paths in the file are relative to its folder.
 
-    Raise FileError, or SceneError with the position.
+    Raise FileError if the file cannot be read, and SceneError, with the position of the fault, if the scene is invalid.
     """
     return parse(read_text(path), source_name(path), os.path.dirname(path))
 

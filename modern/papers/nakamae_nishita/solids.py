@@ -67,7 +67,10 @@ _DRAWN = (visible.INNER, visible.CONTOUR)
 
 
 def solid(number: int, polyhedron: Polyhedron, observer: Observer, origin: Vector) -> Solid:
-    """Return a polyhedron's projection, with its faces and edges classified. Raise SceneError if it has none."""
+    """Return a polyhedron's projection, with its faces and edges classified.
+
+    Raise SceneError if a part of the polyhedron is not in front of the eye.
+    """
     # Section 3.1: a face is a front face if its image runs clockwise. Its edges are classified by their two faces.
     points = project(polyhedron, observer, origin)
     flat: list[Flat] = [(x, y, w) for x, y, _, w in points]

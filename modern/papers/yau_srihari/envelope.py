@@ -67,7 +67,7 @@ def over_edges(corners: list[Place], points: Grid, whole: bool) -> list[tuple[Po
     """Return the envelope's edges above the border of H(A), the plane hull of the columns' positions, counterclockwise.
 
     The points above each edge of H(A) lie in an upright plane, and the edges are those of the lower side of their hull.
-    With ``whole``, a single edge above each edge of H(A) replaces them, as the paper prints.
+    With ``whole``, a single edge above each edge of H(A) replaces these edges, as in the printed procedure.
     """
     edges: list[tuple[Point, Point]] = []
     for start, end in zip(corners, corners[1:] + corners[:1], strict=True):
@@ -109,9 +109,9 @@ class Step:
     """One step of the construction in section 5: an edge taken from the queue, and the face found at this edge.
 
     ``normal`` is the normal of the known face at the edge. ``face`` is None if the search found no point. ``entered``
-    and ``removed`` are the edges added to the queue and removed from it. ``marked`` is the number of heights entered in
-    the tree, ``visited`` is the number of nodes that the search visited, ``angles`` is the number of angles that it
-    computed, and ``waiting`` is the number of edges in the queue afterwards.
+    and ``removed`` are the edges added to the queue and removed from it. ``marked`` is the number of columns whose
+    heights were entered in the tree, ``visited`` is the number of nodes that the search visited, ``angles`` is the
+    number of angles that it computed, and ``waiting`` is the number of edges in the queue afterwards.
     """
 
     edge: Edge
@@ -173,7 +173,7 @@ def envelope(floor: Quadtree, printed: Printed) -> Envelope:
 
 
 def _queue(edges: Iterable[Edge]) -> dict[Edge, Normal]:
-    """Return the initial queue: the reversed edges over the border, each with the normal of the upright face at it."""
+    """Return the initial queue: each edge of the border, reversed, with the normal of the upright face at this edge."""
     return {(end, start): normal_of(start, end, (start[0], start[1], start[2] + 1)) for start, end in edges}
 
 
@@ -217,7 +217,7 @@ def _by_steps(
 
 
 def _most(points: Sized) -> int:
-    """Return a number that exceeds the number of faces of any envelope, at which an endless construction is stopped."""
+    """Return a number of faces that no envelope can have. A construction that reaches this number is stopped."""
     return 8 * len(points) + 8
 
 

@@ -33,9 +33,10 @@ def components(volume: NDArray[np.bool_]) -> int:
 
 
 def _touching(starts: Grid, ends: Grid, step: int) -> tuple[Grid, Grid]:
-    """Return the pairs of runs (consecutive voxels of a line) that touch each other in a common face of two voxels.
+    """Return the pairs of touching runs (a run is a sequence of consecutive voxels of a line).
 
-    In the flat array, neighbouring cells of adjacent lines are ``step`` cells apart.
+    Two runs touch if a voxel of one run has a face in common with a voxel of the other. In the flat array, neighbouring
+    cells of adjacent lines are ``step`` cells apart.
     """
     first = np.searchsorted(ends, starts + step, side="right")
     count = np.searchsorted(starts, ends + step, side="left") - first

@@ -16,7 +16,7 @@ class Printed:
         Theorem 2 chooses the face with the greatest angle between outward normals. But the face that
         lies in a supporting plane has the least angle.
     start
-        Section 5 starts from one upright face over each edge of H(A), the plane hull of the columns' positions (x, y).
+        Section 5 starts with one upright face above each edge of H(A), the plane hull of the columns' positions (x, y).
         Points of the floor above such an edge may lie below this face. Therefore an upright face is needed at every
         edge of the lower side of the hull of these points.
     triangles

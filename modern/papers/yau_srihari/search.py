@@ -149,7 +149,7 @@ def _corners(x: int, y: int, side: int) -> Iterator[tuple[int, int]]:
 
 
 class Candidates:
-    """The points that may be vertices of faces, as an array, for the same search as in :class:`Search`, but faster."""
+    """The points that may be vertices of faces, as an array, which is searched faster than a tree."""
 
     def __init__(self, points: Sequence[Point]) -> None:
         table = np.array(points, dtype=np.int64).reshape(-1, 3).T
