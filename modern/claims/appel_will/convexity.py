@@ -163,9 +163,29 @@ def start_of_jarvis(cases: int = CASES) -> Check:
     return check.unless(is_inside and is_beside, case)
 
 
-def _smallest_angle(origin: Flat, points: Sequence[Point]) -> int:
-    angles = [math.atan2(y - origin[1], x - origin[0]) % (2 * math.pi) for x, y, _ in points]
+def _smallest_angle(origin: Sequence[int], points: Sequence[Point], way: float = 0) -> int:
+    angles = [(math.atan2(y - origin[1], x - origin[0]) - way) % (2 * math.pi) for x, y, _ in points]
     return angles.index(min(angles))
+
+
+@claim("appel-will.160", full=400)
+def next_points_of_jarvis(cases: int = CASES) -> Check:
+    checks = []
+    for sampled in sampled_sets(2, cases):
+        # The polygon is clockwise in x and y, so that the new origin is the first end of each side.
+        for new, last in sides([sampled.points[k] for k in sampled.judge.polygon]):
+            others = [p for p in sampled.points if p != new]
+            found = others[_smallest_angle(new, others, math.atan2(new[1] - last[1], new[0] - last[0]))]
+            checks.append(sampled.points.index(found) not in sampled.judge.inside)
+    message = f"for each of {len(checks)} sides of polygons, the point with the smallest angle about its end, measured "
+    check = searched(SETS[2], cases, checks, message + "from the direction of the side, is on the hull")
+    origin, *points = counterexample_points("jarvis_steps.csv")
+    listed, remaining = [origin], [*points]
+    while len(listed) < 5:
+        listed.append(remaining.pop(_smallest_angle(listed[-1], remaining)))
+    is_wrong = points.index(listed[4]) in exact_hull(points).inside and 3 in exact_hull(listed[1:]).vertices
+    case = f"angles from the horizontal line: the fourth point found, {listed[4][:2]}, is inside the hull but outside "
+    return check.unless(is_wrong, f"{case}the triangle of the first three")
 
 
 @claim("appel-will.37")

@@ -89,13 +89,15 @@ def lines_and_planes() -> Proof:
 
 
 @proves("appel-will.157")
+@proves("kovalevsky-schulz.74", conclusion="the scalar and the vector product of two vectors determine their angle")
 def product_of_lines() -> Proof:
     u, v = point("u", 3), point("v", 3)
     steps = [Step("the product is perpendicular", {}, zero(dot(cross(u, v), line))) for line in (u, v)]
     square = dot(cross(u, v), cross(u, v)) + dot(u, v) * dot(u, v) - dot(u, u) * dot(v, v)
     steps.append(Step("its square is that of the lines less that of their dot product", {}, zero(square)))
-    argument = "The product is perpendicular to both lines, which span the surface. By Lagrange's identity it is 0 "
-    argument += "only for parallel lines."
+    argument = "The product is perpendicular to both lines, which span the surface. Its length and the dot product "
+    argument += "are, by Lagrange's identity, the sine and the cosine of the angle times one number. So they determine "
+    argument += "the angle, and the product is 0 only for parallel lines."
     return Proof.of("the cross product of two lines of a surface is normal to the surface", argument, *steps)
 
 

@@ -41,7 +41,7 @@ from modern.geometry.hull import Stage
 @claim("thesis.224", "thesis.89", kind="replaced_plane", full=300)
 @claim("thesis.218", kind="renumbering", full=300)
 @claim("thesis.77", kind="largest_of_all", full=300)
-@claim("thesis.206", "thesis.228", "thesis.99", "thesis.189", kind="equations", full=300)
+@claim("thesis.206", "thesis.228", "thesis.99", "thesis.189", "thesis.225", kind="equations", full=300)
 @claim("thesis.221", "thesis.229", kind="vertices_used", full=300)
 @claim("thesis.222", "thesis.232", kind="vertex_when_added", full=300)
 @claim("thesis.92", "thesis.266", kind="convexity", full=300)

@@ -229,13 +229,10 @@ def possible_output() -> Check:
         cards = [line for result in results if result.device == "punch" for line in result.lines]
         statements = " ".join(line.text for line in program.statements)
         punched = {int(label) for label in re.findall(r"PUNCH *(\d+)", statements)}
-        headings = {text for k, form in program.formats if k in punched for text in map(_heading, form.specs) if text}
+        specs = [spec for label, form in program.formats if label in punched for spec in form.specs]
+        headings = {spec.text.strip() for spec in specs if isinstance(spec, Literal)} - {""}
         printed += [any(heading in card for card in cards) for heading in headings]
     return exhibited(all(printed), "the cards of chapter 6 show all texts of the FORMATs with which the programs punch")
-
-
-def _heading(item: object) -> str:
-    return item.text.strip() if isinstance(item, Literal) else ""
 
 
 @claim("thesis.279", "thesis.160", "thesis.162")

@@ -150,11 +150,13 @@ def third_corner() -> Proof:
     at_corner, at_point = variables("L_v L_w")
     corner, same_side = positive(at_corner), not_negative(at_corner * at_point)
     return Proof.of(
-        "a plane on an edge of a face p is supporting if and only if no point is opposite to the third corner of p",
-        "Choose the sign of the plane's equation L so that L is not negative at the third corner v. A point w is on "
-        "the side opposite to v if and only if L has values at v and w whose product is negative. If L is positive at "
-        "v, L is then negative at w, and the plane is supporting if and only if L is negative at no point. If L is 0 "
-        "at v, the plane is that of p, which is supporting, and no point is opposite to v.",
+        "a plane of theorem 2 supports the envelope if and only if no floor point is opposite to the third corner of p",
+        "Let L be the plane's equation, positive above the plane. Floor points are on or above the envelope, which "
+        "consists of combinations of them. So the plane supports the envelope from below if and only if L is negative "
+        "at no floor point. L is not negative at the third corner v: if p is upright, v is above the edge; if not, the "
+        "plane contains a floor point beyond the edge, which is not below the plane of p. If L is positive at v, L is "
+        "negative at the points opposite to v. If L is 0 at v, the plane is that of p, which is supporting, and no "
+        "point is opposite to v.",
         Step("not negative", {"v": corner, "w": same_side}, not_negative(at_point), (term("w"),), ("v",)),
         Step("not opposite", {"v": corner, "w": not_negative(at_point)}, same_side, (term("v w"),)),
     )
