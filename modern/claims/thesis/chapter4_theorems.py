@@ -6,17 +6,7 @@ The equations of the proofs are transcribed as printed.
 from fractions import Fraction
 from itertools import product
 
-from modern.claims.algebra import (
-    Polynomial,
-    Step,
-    not_negative,
-    point,
-    polynomial,
-    positive,
-    term,
-    variables,
-    zero,
-)
+from modern.claims.algebra import Polynomial, Step, not_negative, point, polynomial, positive, term, variables, zero
 from modern.claims.evidence import Check, claim, exhibited, proved, refuted, slip
 from modern.claims.hulls import convex_hull, exact_hull
 from modern.claims.sampled_sets import SampledSet, counterexample_points, plane_value
