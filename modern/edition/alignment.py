@@ -58,7 +58,7 @@ def folded(text: str) -> str:
 
 @cache
 def _pair_costs() -> Mapping[tuple[str, str], float]:
-    """Return the costs of aligning pairs (character of a card, character of a transcription) that may be confused."""
+    """Return the cost of aligning a character of a card with a confusable character of a line, for all such pairs."""
     return {
         (p.lemma, p.witness): CONFUSABLE
         for p in table()
@@ -67,7 +67,7 @@ def _pair_costs() -> Mapping[tuple[str, str], float]:
 
 
 def align_characters(card: str, line: str) -> list[tuple[int, int]]:
-    """Return the alignment of a card's text with a line that has the least cost, as pairs of indices.
+    """Return the cheapest alignment of a card's text with the text of a line, as pairs of indices.
 
     A pair has the index of a character of the card and that of the aligned character of the line.  If the card or the
     line lacks the character, its index is -1.

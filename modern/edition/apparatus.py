@@ -46,9 +46,9 @@ class Change:
     ``lemma`` replaces the fragment ``witness``, which must occur exactly once in the line.  A lemma that contains line
     ends produces several lines.  A line that becomes empty is removed from the text.
 
-    With ``after``, the lines of the lemma are inserted after the line instead.  With ``through``, all lines from
-    ``line`` to ``through`` are removed.  With ``form``, these lines are kept but arranged as on the coding form
-    (:func:`on_form`).  With ``dense``, the blanks of the line are removed.
+    With ``after``, nothing is replaced: the lines of the lemma are inserted after the line.  With ``through``, all
+    lines from ``line`` to ``through`` are removed.  With ``through`` and ``form``, these lines are kept but arranged as
+    on the coding form (:func:`on_form`).  With ``dense``, the blanks of the line are removed.
     """
 
     line: str
@@ -196,7 +196,7 @@ def confirmed(text: Text, ids: Collection[str]) -> Text:
 def build(
     text: Text, layers: Iterable[str] | None = None, without: Collection[str] = (), instead: Row | None = None
 ) -> tuple[Line, ...]:
-    """Return the lines of the witness after applying the rows of ``layers`` (None: the text's default layers).
+    """Return the lines of the witness after applying the rows of ``layers`` (by default the text's default layers).
 
     The rows whose ids are in ``without`` are not applied.  ``instead`` replaces the row with the same id.  Layers are
     applied in the order of ``text.layers``.  Raise ApparatusError for an unknown layer, and RowMisfit if the witness

@@ -32,7 +32,7 @@ def is_prose(card: str) -> bool:
 
 @lru_cache(1 << 18)
 def statement(card: str) -> tuple[tree.Statement | None, int]:
-    """Return the statement of a card and 0 or, if the card has an error, None and the column of the first error.
+    """Return the statement of a card, and 0. If the card has an error, return None, and the column of the first error.
 
     For a comment, which has no statement, return None and 0.
     """
@@ -90,7 +90,7 @@ def exchanges(card: str) -> Iterator[tuple[str, Pair]]:
 
 @lru_cache(1 << 16)
 def labels(card: str) -> tuple[str, tuple[str, ...]]:
-    """Return the statement number of a card, and the numbers of other statements that its statement names.
+    """Return the statement number of a card, and the numbers of other statements to which its statement refers.
 
     The number of a FORMAT begins with F, which distinguishes it from the same number of another statement.
     """

@@ -136,7 +136,7 @@ def printed_plane(equation: str) -> Vector:
 
 
 def theorem_faults(theorem: Theorem, text: Text) -> tuple[str, ...]:
-    """Return a message for each difference between a theorem's data and its text, and for each claim that is wrong.
+    """Return a message for each difference between a theorem's data and its text, and for each wrong claim.
 
     The claims are the stated number of points, the points on each plane, the extreme points and the signs.
     """

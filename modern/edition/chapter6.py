@@ -40,7 +40,7 @@ class LayoutError(ValueError):
 class Format:
     """A FORMAT statement: ``text`` is the restored text, and ``listed`` is the OCR text of the listing on ``page``.
 
-    ``note`` explains a difference between both texts.
+    ``note`` explains the difference if the two texts differ.
     """
 
     program: int
@@ -69,7 +69,7 @@ class Field:
 
 @dataclass(frozen=True, slots=True)
 class CardShape:
-    """One of the cards that a FORMAT punches for ``values`` numbers.
+    """A card that a FORMAT punches: one of the cards that it punches for a list of ``values`` numbers.
 
     ``record`` is the number of the card among these cards, counted from 1 and including blank cards.
     """

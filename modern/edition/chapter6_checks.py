@@ -1,6 +1,6 @@
 """Checks of the whole transcript of chapter 6.  Each function returns a message for each fault that it finds.
 
-* :func:`check_tie` checks that the cards have the characters of the printed lines in the same order.
+* :func:`check_tie` checks that the cards have the characters of the printed lines, in the order of the print.
 * :func:`check_rows` checks that the ground of every emendation holds, and that no emendation is superfluous.
 * :func:`check_layout` checks that columns, blank cards and words of the cards agree with the FORMAT statements.
 * :func:`check_arithmetic` checks that the printed points, planes and counts agree with each other.
@@ -145,7 +145,7 @@ def _whole_formats(entry: DeviceLayout, sizes: dict[tuple[int, int, int], int]) 
 
 
 def check_arithmetic(chapter: Chapter) -> tuple[str, ...]:
-    """Check that all files of an example have the same points and the same N, and that no point is outside a plane."""
+    """Check that all device files of an example agree in N and the points, and that no point is outside a plane."""
     faults: list[str] = []
     for example in sorted({d.example for d in chapter.layout.devices}):
         deck = sorted(numbers(card) for card in of_role(chapter, example, 1, "point", "deck"))

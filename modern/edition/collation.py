@@ -1,4 +1,4 @@
-"""Collate another transcription of the listings with the edition: compare the two, token by token.
+"""Collate another transcription of the listings with the edition: compare the texts token by token.
 
 :mod:`modern.edition.transcription` finds the characters of each card in the transcription.
 :mod:`modern.edition.tokens` divides the card into tokens and finds their rivals, which are other possible readings.
@@ -95,9 +95,10 @@ def collate(text: str, file: str = "") -> Collation:
 def _pieces(n: int, line: str) -> tuple[str, ...]:
     """Return the characters of a line that align with each token of a card.
 
-    A character between two tokens that aligns with neither belongs to the first token, with one exception.  A letter or
-    digit belongs to the second token if the second token begins with a letter or digit and the first token does not end
-    with one.  Characters that the OCR may have inserted as noise, such as specks, are omitted.
+    A character of the line that stands between two tokens and aligns with neither of them is assigned to the first
+    token, with one exception: a letter or digit is assigned to the second token if the second token begins with a
+    letter or digit and the first token does not end with one.  Characters that the OCR may have inserted as noise, such
+    as specks, are omitted.
     """
     tokens, marks = spans(n), _marks()
     owner = [k for k, (a, b) in enumerate(tokens) for _ in range(a, b)]
@@ -304,8 +305,8 @@ def _ranges(numbers: Sequence[int]) -> str:
 def shared_errors(collation: Collation) -> tuple[int, int]:
     """Return how many misreadings of the OCR text a transcription shares, and how many it could share.
 
-    It could share the misreadings at all places that it contains.  A transcription that shares most of these was
-    probably made from the same OCR text or scan and is not independent.
+    A transcription could share the misreadings at all places that it contains.  A transcription that shares most of
+    these was probably made from the same OCR text or scan and is not independent.
     """
     shared = places = 0
     for row in (row for name in programs.TEXTS for row in programs.text(name).rows if row.kind == "misread"):

@@ -42,7 +42,7 @@ def blank_edits(old: str, new: str) -> Iterator[Edit]:
 
 
 def word_edits(old: str, new: str) -> Iterator[Edit]:
-    """Yield the edits that give a text the words of ``new``.  The blanks between the words may still differ."""
+    """Yield the edits after which a text has the words of ``new``.  The blanks between the words may still differ."""
     for edit, _ in _word_edits(old, new):
         yield edit
 

@@ -14,8 +14,8 @@ The *ground* of a row names its evidence.  :func:`check_row` removes the row and
 If a row consists of several steps (:mod:`modern.edition.readings`), each step is also undone alone, and the ground must
 fail then too.
 
-To judge a row of an optional layer, its layer and the layers that its ground names are added to all three programs.
-The result with all rows of its layer is compared with the result without the row.
+To judge a row of an optional layer, this layer and the layers that the row's ground names are added to all three
+programs.  The result with all rows of the layer is compared with the result without the judged row.
 """
 
 import re
@@ -294,7 +294,7 @@ class _Outcome:
         return self.ending.message if isinstance(self.ending, Ending) else str(self.ending)
 
     def same_as(self, other: "_Outcome") -> bool:
-        """Return True if output and kind of ending are equal.  Messages are not compared: they contain card numbers."""
+        """Return True if output and kind of ending are equal.  Messages, which contain card numbers, may differ."""
         return self.lines == other.lines and _reason(self.ending) == _reason(other.ending)
 
 
@@ -357,8 +357,8 @@ _TRIPLES = (((3, -7, 4), (-5, 2, 9), (6, 8, -1)), ((1, 4, -6), (7, -3, 5), (-2, 
 def _computes_v(deck: Deck, first: str, last: str) -> bool:
     """Return True if statements compute V (thesis p. 15), the square of twice the area of the triangle P1 P2 P.
 
-    The statements are run for some points.  The expected value follows from the scalar products of two sides, by
-    Lagrange's identity.
+    The statements are run for some points.  The expected value of V is computed from the scalar products of two sides
+    of the triangle by Lagrange's identity.
     """
     statements = list(sources(deck))
     begin, end = _index(statements, first), _index(statements, last)

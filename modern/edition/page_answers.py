@@ -54,7 +54,7 @@ def stored_readings(text: str) -> tuple[Reading, ...]:
 
 
 def blank_table(rows: Sequence[Mapping[str, str]]) -> str:
-    """Return a proof sheet without answers as a CSV table: rows for the reader and the date, then the given rows."""
+    """Return a proof sheet without answers as a CSV table: two rows for the reader and the date, then ``rows``."""
     table = StringIO(newline="")
     writer = csv.DictWriter(table, COLUMNS, restval="", lineterminator="\r\n")
     writer.writeheader()

@@ -167,7 +167,7 @@ def _applied(data: Path, readings: Sequence[Reading]) -> Iterator[Reading]:
 
 
 def _line_of(text: Text, reading: Reading) -> Line:
-    """Return the line of a card after the layer ``ocr``.  Raise ApparatusError if rows of later layers change it."""
+    """Return the line of a card, with the layer ``ocr`` applied.  Raise ApparatusError if later layers change it."""
     number = int(reading.item.split("-")[1])
     final = build(text, programs.built_in(text.id).layers)[number - 1]
     for line in build(text, ("ocr",)):

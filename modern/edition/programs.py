@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class BuiltIn:
-    """A built-in program: its name, its number in the thesis, the name of its text, and the layers of its deck."""
+    """A built-in program: its name, its number in the thesis, the name of its text, and the layers applied to it."""
 
     name: str
     number: int

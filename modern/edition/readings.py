@@ -19,7 +19,7 @@ that a row of each kind may make:
                 (:mod:`modern.edition.page_readings`)
 ``omission``, ``conjecture`` and the kinds of cards added by the project may make any change
 
-A pair must be used by at least two rows, or its entry in the table must name other evidence.
+Each pair in the table must be used by at least two rows, or its entry must name other evidence.
 """
 
 import tomllib
@@ -178,7 +178,7 @@ def attested(rows: Iterable[Row]) -> Counter[tuple[str, str]]:
 
 
 def reading_faults(row: Row, places: Mapping[tuple[str, str], int]) -> Iterator[str]:
-    """Yield a message for each violation of the rule of a row's kind.  ``places`` is the result of :func:`attested`."""
+    """Yield a message for each change that the kind of a row forbids.  ``places`` is the result of :func:`attested`."""
     if row.layer != "ocr":
         return
     if row.kind not in RULED:

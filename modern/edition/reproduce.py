@@ -45,8 +45,8 @@ class Verdict:
     ``numbers``, ``words``, ``cards`` and ``blank`` count the printed numbers, words, cards with text and blank cards.
 
     ``differences`` has a triple for each card that differs: its number, the printed and the produced card.  A missing
-    card is an empty string.  If the output is exact except for its order, ``same`` has the numbers of points, equations
-    and other parts that agree; otherwise it is empty.
+    card is an empty string.  If the output differs only in its order, ``same`` has the numbers of points of each kind
+    and of equations, all of which agree; otherwise it is empty.
     """
 
     kind: Kind
@@ -140,8 +140,8 @@ def _reports(example: int, state: State, expected: tuple[Print, ...], load: Load
 def compare(printed: Sequence[str], produced: Sequence[str], final: bool, oriented: bool) -> Verdict:
     """Return the verdict on the lines that a program wrote on a device.
 
-    ``final`` is True if the lines hold a hull, and False for a deck for the next program.  ``oriented`` is True if the
-    signs of the hull's equations must agree too.
+    ``final`` is True if the lines hold a hull, and False if they are a deck for the next program.  ``oriented`` is True
+    if also the signs of the hull's equations must agree.
     """
     tokens = [token for line in printed for token in line.split()]
     numbers = sum(len(_NUMBER.findall(line)) for line in printed)
@@ -182,7 +182,7 @@ def _headings(lines: Sequence[str]) -> Counter[str]:
 
 
 def _same_results(printed: Sequence[str], produced: Sequence[str], oriented: bool) -> bool:
-    """Return True if two outputs have equal headings and hulls that differ only in the order of parts or in scale.
+    """Return True if two outputs have equal headings, and hulls that differ only in order or in the scale of equations.
 
     Return False if the hulls are equal, because the outputs then differ in something other than the order.
     """

@@ -5,7 +5,7 @@ differ from the damaged text only by *exchanges*: replacements of misread charac
 exchange needs a ground:
 
 ``parse``   of the readings with the fewest exchanges, only this reading compiles: it has the form of a statement, the
-            statements that it names exist, no other card has its statement number, and its names occur elsewhere
+            statements to which it refers exist, no other card has its statement number, and its names occur elsewhere
 ``print``   with this reading the program reproduces more lines of its printed results than with every other reading.  A
             card that compiles and to which no other rule applies is emended only if all results are then reproduced.
 ``forced``  only this reading equals another card (a sibling) in which names are exchanged.  A card that compiles is
@@ -160,7 +160,7 @@ def _by_compiler(program: _Program) -> None:
 
 
 def _permits(text: str, numbers: Set[str], known: Set[str], possible: Set[str] = frozenset()) -> bool:
-    """Return True if the statements that a card names exist, no other card has its number, and its names are known."""
+    """Return True if the statements to which a card refers exist, its number is unique, and its names are known."""
     label, references = labels(text)
     exists = all(number in numbers or number in possible or number == label for number in references)
     return exists and not (label and label in numbers) and names(text) <= known

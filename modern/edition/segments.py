@@ -1,9 +1,9 @@
 """A text with both readings of every emendation, for TEI's parallel segmentation (TEI P5 Guidelines, 12.2.3).
 
-:func:`modern.edition.apparatus.build` applies rows and returns only the resulting text.  Here the same rows produce
-*places*.  A place is a piece of a line with its reading before the row, its reading after the row, and the row.  Places
-are nested, because a row of a later layer may change the result of an earlier row.  :func:`reading` returns the text
-with any choice of layers.
+:func:`modern.edition.apparatus.build` applies rows and returns only the resulting text.  The present module turns the
+same rows into *places*.  A place is a piece of a line with its reading before the row, its reading after the row, and
+the row.  Places are nested, because a row of a later layer may change the result of an earlier row.  :func:`reading`
+returns the text with any choice of layers.
 
 A place contains only the text that changes.  A row that arranges a card in columns has places of blanks only.  A word
 that a row moves has two places: one where it disappears and one where it appears.

@@ -1,9 +1,10 @@
 """Proof sheets: for each page of the thesis, questions about the readings that only the printed page can decide.
 
 A *silent reading* is an altered card that no check detects (``fortran_src/silent.csv``, written by
-:mod:`modern.edition.weight`).  An :class:`Item` asks for one token of a card.  The choices of the item are the restored
-token and the silent readings of this token.  Each silent reading and each open question about the text
-(``fortran_src/questions.toml``) is on exactly one sheet.  :mod:`modern.edition.page_readings` reads a filled sheet.
+:mod:`modern.edition.weight`).  An :class:`Item` asks which token is printed at one place of a card.  The choices of the
+item are the restored token and the silent readings of this token.  Each silent reading and each open question about the
+text (``fortran_src/questions.toml``) is on exactly one sheet.  :mod:`modern.edition.page_readings` reads a filled
+sheet.
 """
 
 from __future__ import annotations
@@ -69,7 +70,8 @@ class Item:
 class Question:
     """An open question about the text of a page.
 
-    ``depends`` says what depends on the answer.  If the first choice is the answer, the rows in ``rows`` are certain.
+    ``depends`` is a sentence on what depends on the answer.  If the answer is the first choice, the readings of the
+    rows in ``rows`` become certain.
     """
 
     id: str

@@ -172,7 +172,7 @@ def digest(text: str) -> str:
 
 
 def check_files() -> Iterator[tuple[str, bool, str]]:
-    """Check the hash of each excerpt and each collation, and the hashes of all files of ``grounds`` together.
+    """Check the hash of each excerpt and of each collation, and, with a common result, those of the decks of grounds.
 
     Yield triples: the name of the file, True if the hash is right, and a message.
     """

@@ -18,11 +18,11 @@ LIMIT = 30_000
 
 @dataclass(frozen=True, slots=True)
 class Trial:
-    """Data cards of a program and the punched lines that the document prints for them.
+    """The data cards of a run, and the lines punched by this run as the document prints them.
 
     ``switches`` are the sense switches that are on, and ``operator`` is the text of a file of the operator's actions.
-    ``final`` is True if the lines hold a hull, and False for a deck for the next program.  ``in_order`` is False if the
-    parts of a result may be in another order than the printed ones.
+    ``final`` is True if the lines hold a hull, and False if they are a deck for the next program. ``in_order`` is False
+    if the points and equations may be in another order than in the print.
     """
 
     cards: tuple[str, ...]

@@ -74,7 +74,8 @@ class Variant:
 class Statement:
     """A statement of a listing with the name of its card.
 
-    ``labels`` has the first and the last index (exclusive) of each number of another statement in its text.
+    ``labels`` has, for each number of another statement in the text, the index of its first digit and the index after
+    its last digit.
     """
 
     source: Source

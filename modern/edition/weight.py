@@ -15,8 +15,8 @@ A variant is a listing with one altered token (:mod:`modern.edition.variants`). 
 ``nothing``   no check detects the variant
 
 ``equation`` and ``sibling`` are comparisons that a reader can make without running the program.  A variant is run only
-on decks for which the listing executes the card, until a result differs.  Each answer is stored at once, so that an
-interrupted run can be resumed.
+on decks for which the listing executes the altered card, until a result differs.  Each answer is stored at once, so
+that an interrupted run can be resumed.
 """
 
 import hashlib
@@ -74,7 +74,7 @@ EQUATIONS: tuple[tuple[str, str, str, str], ...] = (
 
 @dataclass(frozen=True, slots=True)
 class Input:
-    """A deck that the listing reads, with the check that uses it (``print`` or ``machine``) and the listing's result.
+    """A deck that the listing reads, with the check that uses the deck (``print`` or ``machine``), and the result.
 
     ``example`` is the number of the example from which the deck comes, or 0.
     """
@@ -190,7 +190,7 @@ def _result(program: Program, data: Input) -> Result | None:
 
 
 def _disagrees(program: Program, data: Input) -> bool:
-    """Return True if the output of program 1 as listed differs from the print in more than its order."""
+    """Return True if the output of this state of program 1 differs from the printed output in more than its order."""
     actual = _result(program, data)
     if actual is None or actual.typed != data.result.typed:
         return True

@@ -31,8 +31,8 @@ def write_weight(folder: Path, answers: Mapping[str, str]) -> str:
 def cards_table(answers: Mapping[str, str]) -> Iterator[tuple[str, ...]]:
     """Yield the header of the table of cards, then a row for each card.
 
-    A row has the statement, the number of its variants that each check detects, the formula that it computes, and the
-    number of other cards of the same form.
+    A row has the statement, the number of its variants that each check detects, the formula that the statement
+    computes, and the number of other cards with statements of the same form.
     """
     yield ("program", "card", "place", "statement", *NOTICED, "no change", "formula", "alike")
     for variant, count in by_card(answers):
