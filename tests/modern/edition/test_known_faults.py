@@ -294,10 +294,8 @@ def test_18_translation_costs_digits(flat: bool, refused: int, errors: int) -> N
     assert refusals.count("DATA NOT ACCEPTABLE") == refused
     assert refusals.count("ERROR IN PROGRAM") == errors
     entry = " ".join(ENTRIES[18].split())
-    expected = (
-        f"reject {refused} of 60 coplanar sets" if flat else f"{refused} of 60 sets in space, and {errors} more end"
-    )
-    assert expected in entry
+    in_space = f"Of 60 sets in space, they reject {refused} set, and {errors} more sets end in ERROR IN PROGRAM"
+    assert (f"reject {refused} of 60 coplanar sets" if flat else in_space) in entry
     assert not faulty_sets([(str(k), points) for k, points in enumerate(thirds(flat))], "corrected")
 
 
