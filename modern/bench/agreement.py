@@ -1,9 +1,9 @@
 """Compare, deck by deck, the cards that a natively compiled program punches with those of the emulator.
 
-Two results are *the same* if they differ at most in how zeros are written. They have *different digits* if numbers
-also differ, but by at most TOLERANCE times the larger number: doubles round, and the 1620 truncates to eight digits.
-All other results are *another hull*: the number or the order of points or planes differs, or one program rejects the
-points.
+Two results are *the same* if they are equal or differ only in how zeros are written. They have *different digits* if
+numbers also differ, but by at most TOLERANCE times the larger number: doubles round, and the 1620 truncates to eight
+digits. All other results are *another hull*: the number or the order of points or planes differs, or one program
+rejects the points.
 """
 
 import re
@@ -22,9 +22,9 @@ _ZERO = re.compile(r"[ -]\.00000000E[+-]\d\d")
 
 @dataclass(frozen=True, slots=True)
 class Agreement:
-    """The number of decks with the same result, with different digits and with another hull, and the first difference.
+    """The numbers of decks with the same result, with different digits and with another hull.
 
-    ``first`` describes the first difference and is empty if there is none.
+    ``first`` describes the first difference between two results, and is empty if there is none.
     """
 
     same: int

@@ -92,7 +92,7 @@ def _judged(case: _Case) -> tuple[str, dict[str, object]]:
 
 
 def _compared(case: _Case, name: str, exact: Sequence[Decision]) -> list[tuple[object, str, str]]:
-    """Return, for each decision of the exact run, outcome and value in the named arithmetic, and a verdict on them."""
+    """Return, for each decision of the exact run, the outcome, the value and a verdict in the arithmetic ``name``."""
     arithmetic = numbers(name)
     _, decisions = run_with_decisions(case.program, case.deck, arithmetic)
     cells: list[tuple[object, str, str]] = []

@@ -80,7 +80,10 @@ def run_with_decisions(program: Program, deck: Deck, arithmetic: Numbers) -> tup
 
 @dataclass
 class Counts:
-    """The number of differences of each kind between compiled programs and the emulator, and the place of the first."""
+    """The number of differences of each kind between compiled programs and the emulator.
+
+    ``first`` describes the place of the first difference of each kind.
+    """
 
     counts: Counter[str] = field(default_factory=Counter)
     first: dict[str, str] = field(default_factory=dict)

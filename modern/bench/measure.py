@@ -71,8 +71,8 @@ class Row:
 class Bench:
     """The results of a measurement.
 
-    ``rows`` has the times of the engines, and ``starts`` has the times of whole processes that run one deck.
-    ``compiler`` is the version of the Fortran compiler, or empty if there is none.
+    ``rows`` has the times of the engines, and ``starts`` has the times of processes from their start to the end of one
+    deck.  ``compiler`` is the version of the Fortran compiler, or empty if there is none.
     """
 
     rows: tuple[Row, ...]

@@ -3,11 +3,11 @@
 How to add a command:
 
 1. ``modern/cli/NAME.py``: define ``main(args)``, which returns the exit code (``OK``, ``DIFFERS`` or ``BAD_INPUT`` of
-   ``modern/cli/shared/console.py``) and raises ``UsageError`` for options that cannot be carried out.  A hyphen in the
-   command's name becomes an underscore in the module's name.
+   ``modern/cli/shared/console.py``) and raises ``UsageError`` for options that are invalid or cannot be combined.  A
+   hyphen in the command's name becomes an underscore in the module's name.
 2. ``modern/cli/arguments.py``: write a function that adds the arguments, and an entry in ``COMMANDS`` with the line for
    ``--help``.  Import nothing there that only a run needs.
-3. ``modern/cli/shared/``: put here whatever two commands share.  No command imports another command.
+3. ``modern/cli/shared/``: put code here that two or more commands use.  No command imports another command.
 4. Give an argument that names a file the type ``InputFile``, ``OutputFile`` or ``Folder`` of
    ``modern/cli/shared/console.py``.  ``check_outputs`` then rejects, before the command runs, an output that cannot be
    written or is also an input.  Print the report of the command with ``print_report``, which uses standard error if

@@ -161,7 +161,7 @@ def _report(
 
 
 def _summary(source: Input, inputs: Sequence[Surface], hull: Assembled, joined: Joined | None) -> Iterator[str]:
-    """Yield the short report for many points, in which one line stands for each table."""
+    """Yield the short report, which has one line in place of each table. It is used for many points."""
     yield _first_line(source, inputs)
     if hull.preprocessing is not None:
         deleted_first = counted(len(hull.preprocessing.deleted), "point")
@@ -203,7 +203,7 @@ def _kind(hull: Assembled) -> str:
 
 
 def _compared(inputs: Sequence[Surface], hull: Assembled, joined: Joined | None) -> Fates:
-    """Return whether the hull keeps, respecifies (bounds differently) or deletes each surface of the object."""
+    """Return which surfaces of the object the hull keeps, keeps with another border (respecifies), or deletes."""
     if joined is None:
         return hull.fates(inputs)
     return fates_by_points(inputs, joined_points(hull, joined), joined_surfaces(hull, joined))

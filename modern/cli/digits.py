@@ -177,7 +177,7 @@ def _estimated(estimated: Estimate | None) -> tuple[str, str]:
 
 
 def _verdict(estimated: Estimate | None, true: float | None) -> str:
-    """Return text that says how many digits of a number the reader may believe."""
+    """Return a verdict on a printed number: how many of its digits to believe, or a text such as ``not estimated``."""
     if estimated is None:
         return "not estimated"
     if estimated.is_exact:
@@ -201,7 +201,7 @@ def _decisions(
 ) -> Table:
     """Return a table of the decisions on which stochastic runs disagree.
 
-    A sentence above the table names the first decision that the reference arithmetic takes differently.
+    A sentence above the table names the first decision at which the reference arithmetic takes another branch.
     """
     first = divergence.first_decision
     sentences = [f"{divergence.arithmetics[1]}: {counted(divergence.tested, 'decision')} compared, none differs"]

@@ -1,4 +1,4 @@
-"""``hull1620 diverge``: run a program in two arithmetics in step, and report where they differ."""
+"""``hull1620 diverge``: run a program in two arithmetics in step, and report the differing decisions and values."""
 
 import argparse
 import shutil

@@ -59,7 +59,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _answers(name: str | None) -> tuple[str, str] | None:
-    """Return name and text of the file of ``--operator``, or None for no operator. Raise UsageError for a terminal."""
+    """Return name and text of the file that ``--operator`` names, or None without one. A terminal is a UsageError."""
     if name == "":
         raise UsageError(
             "--operator: the listing command cannot ask at the terminal; use --operator=FILE with a file or a log"
@@ -178,7 +178,7 @@ def _comparison(divergence: Divergence) -> Iterator[str]:
 def _statistics(
     program: Program, result: Result, divergence: Divergence | None, sampling: Sampling | None
 ) -> dict[int, str]:
-    """Return the columns of figures of each statement as text, by the number of its first card.
+    """Return the figures that are printed next to each statement as text, by the number of the statement's first card.
 
     The columns are the number of times that the statement ran, its share of the processor time, the greatest number of
     digits that one of its values lost, and the least number of digits that stochastic runs estimate for its values.

@@ -57,7 +57,7 @@ def _in_space(volume: Volume) -> Volume:
 
 
 def _printed(args: argparse.Namespace) -> Printed:
-    """Return the rules that ``--literal`` or ``--printed`` leaves as printed. Raise UsageError for an unknown rule."""
+    """Return the rules to apply as printed, by ``--literal`` or ``--printed``. Raise UsageError for an unknown rule."""
     if args.literal:
         return LITERAL
     try:

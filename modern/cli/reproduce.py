@@ -1,4 +1,4 @@
-"""``hull1620 reproduce``: compute the printed results and the statements of the documents, and judge each."""
+"""``hull1620 reproduce``: compute the printed results, check the statements of the documents, and give verdicts."""
 
 import argparse
 import os
@@ -165,7 +165,7 @@ def _example_lines(
 
 
 def _same(verdict: Verdict) -> str:
-    """Return text with the numbers of points and planes that are the same in another order, or an empty text."""
+    """Return a text with the numbers of points and planes if only their order differs from the print, else ""."""
     counted = ", ".join(f"{count} {_PARTS[part]}" for part, count in verdict.same)
     return f"the same {counted}" if counted else ""
 

@@ -33,10 +33,10 @@ from modern.comparison.sensitivity import NUMBER, shape_of
 class StatementDigits:
     """The estimated numbers of significant digits of the values that one statement stored in the random runs.
 
-    ``worst`` and ``median`` are the fewest digits and the median by Stott Parker's estimate, which counts the digits
-    common to the runs.  ``sure`` is the fewest digits by Sohier's estimate, which counts the digits of a run that are
-    right with probability 95 %.  ``times`` is the number of values.  ``inexact`` is the number of values that differ
-    between the runs, and ``zeros`` is the number of computational zeros among these.
+    ``worst`` is the least number of digits of a value by Stott Parker's estimate, which counts the digits common to the
+    runs, and ``median`` is the median of these numbers.  ``sure`` is the least number by Sohier's estimate, which
+    counts the digits of a run that are right with probability 95 %.  ``times`` is the number of values.  ``inexact`` is
+    the number of values that differ between the runs, and ``zeros`` is the number of computational zeros among these.
     """
 
     line: Line
@@ -53,8 +53,9 @@ class DecisionShares:
     """The decisions of an IF on floating-point numbers in the random runs.
 
     ``times`` is the number of its executions, and ``disputed`` is the number of executions at which the runs disagreed.
-    The first disputed execution is the one with the number ``time``.  ``shares`` has the numbers of runs in which the
-    tested value was negative, zero and positive at this execution, and ``taken`` is the sign whose branch was taken.
+    ``time`` is the number of the first disputed execution, counted from 1.  ``shares`` has the numbers of runs in which
+    the tested value was negative, zero and positive at this execution, and ``taken`` is the sign whose branch was
+    taken.
     """
 
     line: Line
@@ -164,7 +165,7 @@ def _fraction(value: Fraction | int | None) -> Fraction | None:
 
 
 def _vote(votes: _Votes, signs: Sequence[int], branch: Sequence[int], taken: int) -> None:
-    """Count an execution of an IF, as disputed if the sign in some run would select another branch."""
+    """Count an execution of an IF. The execution is disputed if the sign in some run would select another branch."""
     votes.times += 1
     if {branch[1 + sign] for sign in signs} != {branch[1 + taken]}:
         votes.disputed += 1

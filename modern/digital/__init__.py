@@ -11,8 +11,8 @@ To add a file format:
    position. ``nrrd.py`` is an example. Raise VolumeError for invalid data, with a message that names the file and the
    place.
 2. Call the reader in ``_parsed`` in ``volumes.py`` for files that begin with the first bytes of the format. If
-   SimpleITK reads the format, add its file name extension to ``KINDS`` in ``itk.py`` instead. No other change is then
-   needed for steps 1 and 2.
+   SimpleITK reads the format, add its file name extension to ``KINDS`` in ``itk.py`` instead. SimpleITK then reads the
+   file, and no reader is needed.
 3. To write the format, add its file name extension to ``ARRAYS`` and a case to ``write_array``, both in ``volumes.py``.
 4. Test the reader with valid files in ``tests/modern/digital/test_volumes.py``, and with damaged files in
    ``test_damaged_volumes.py`` in the same folder.

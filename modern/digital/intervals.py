@@ -66,7 +66,11 @@ def reduced(x: Grid, y: Grid, z: Grid) -> tuple[Grid, Grid, Grid]:
 
 
 def _along(line: Grid, t: Grid, z: Grid) -> tuple[Grid, Grid, Grid]:
-    """Repeatedly remove the points on or above the segment between their two neighbours in the same line."""
+    """Repeatedly remove each point on or above the segment between its two neighbours.
+
+    ``line`` has the number of the line on which each point (t, z) lies. Only points on the same line are neighbours.
+    The arrays are sorted by line and then by t.
+    """
     removed = np.ones(len(line), dtype=np.bool_)
     while len(line) > 2 and STILL_PAYS * np.count_nonzero(removed) >= len(line):
         before, after = t[1:-1] - t[:-2], t[2:] - t[1:-1]

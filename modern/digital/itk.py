@@ -203,7 +203,7 @@ def _bytes(path: str) -> int:
 def _run(arguments: Sequence[str], path: str, seconds: float) -> int:
     """Run ``itk_child.py`` and return its exit code, which is negative if a signal ended the process.
 
-    Raise VolumeError after the time limit.
+    Raise VolumeError if the process does not end within ``seconds``.
     """
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path), "ITK_GLOBAL_DEFAULT_NUMBER_OF_THREADS": "1"}
     command = [sys.executable, "-P", "-W", "ignore", _CHILD, *arguments]

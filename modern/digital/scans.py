@@ -27,8 +27,8 @@ class Scan:
     """An array of numbers or truth values, indexed [x, y] or [x, y, z], before voxels are selected.
 
     ``origin`` is the coordinates of the voxel at index 0. ``world`` is the position of the voxels, or None if it is
-    unknown. ``source`` is the name in messages, and ``notes`` has one line for each remark of the reader. Raise
-    VolumeError if the array has another type or number of axes, or a value that is not a number.
+    unknown. ``source`` is the name in messages, and ``notes`` has one line for each note of the file reader to the
+    user. Raise VolumeError if the array has another type or number of axes, or a value that is not a number.
     """
 
     values: NDArray[Any]
@@ -52,7 +52,7 @@ class Scan:
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """The user's choice of voxels: all with a value of at least ``threshold``, or in ``labels``, or other than 0."""
+    """The user's choice of voxels: those with a value of at least ``threshold``, in ``labels``, or other than 0."""
 
     threshold: Fraction | None = None
     labels: tuple[int, ...] = ()

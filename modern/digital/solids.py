@@ -1,7 +1,7 @@
 """Voxel solids: the class Volume, volumes from arrays and from lists of coordinates, digital balls and half-balls.
 
-A voxel is identified by its integer coordinates (x, y, z). Its centre is that point, and as a cube it extends half a
-unit in each direction. The pixels of a picture are voxels with two coordinates.
+A voxel is identified by its integer coordinates (x, y, z). Its centre is the point with these coordinates, and as a
+cube it extends half a unit from the centre in each direction. The pixels of a picture are voxels with two coordinates.
 """
 
 import math

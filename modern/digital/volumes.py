@@ -99,7 +99,7 @@ def read_volume(
 
 
 def read_scan(path: str, stated: Stated | None = None) -> Scan:
-    """Return the values in a file, a folder or a ball, from which voxels can be selected; see ``read_volume``."""
+    """Return the values in a file, a DICOM folder or a named ball, from which the caller can select voxels."""
     stated = stated or Stated()
     ball_name = _BALL.fullmatch(path)
     if ball_name:

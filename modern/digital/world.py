@@ -38,7 +38,7 @@ class NoVoxels(VolumeError, PointsError):
 class World:
     """The position of a volume in physical coordinates.
 
-    ``steps`` has for each axis of the array the vector from the centre of a voxel to the centre of the next voxel.
+    ``steps`` has a vector for each axis of the array: from the centre of a voxel to the centre of the next voxel.
     ``origin`` is the centre of voxel (0, 0, 0). ``space`` names the directions of the physical axes, such as
     ``left-posterior-superior``, and ``unit`` names the unit of lengths, such as ``mm``. Either is empty if it is
     unknown. Raise VolumeError if steps and origin have different numbers of coordinates or if the steps are linearly
@@ -73,7 +73,7 @@ class World:
         return len(self.steps) == len(self.origin) == 3 and determinant(self.steps) < 0
 
     def moved(self, voxel: Sequence[int]) -> "World":
-        """Return the same position for other voxel coordinates, in which ``voxel`` is (0, 0, 0)."""
+        """Return the same position for shifted voxel coordinates, in which the given voxel is (0, 0, 0)."""
         return replace(self, origin=self.place(voxel))
 
     def turned(self, space: str) -> "World":

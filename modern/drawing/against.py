@@ -1,4 +1,4 @@
-"""Draw a hull and a wrong hull of the same points in one picture. The differences have marks of their own."""
+"""Draw a hull and a wrong hull of the same points in one picture. Marks show the differences."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -40,8 +40,8 @@ def draw_against(
 ) -> str:
     """Return the picture of a hull and of its differences from a hull read from cards, as the text of an SVG file.
 
-    ``eye``, ``title``, ``width`` and ``show`` are those of ``draw_svg``, but all points are drawn even if ``show``
-    omits them.
+    ``eye``, ``title``, ``width`` and ``show`` have the same meaning as in ``draw_svg``, but all points are drawn even
+    if ``show`` omits them.
     """
     show = replace(show or Show(), points=True)
     picture = filter_scene(scene(hull, None if eye is None else [Fraction(number) for number in eye]), show)

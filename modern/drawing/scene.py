@@ -46,8 +46,9 @@ class Pane:
 class Scene:
     """The projection of a hull, before its size in pixels is known.
 
-    ``images`` are the positions of the vertices in the order of ``Hull.vertices``, and ``hidden`` tells for each vertex
-    if it is hidden. ``boundary`` and ``inside`` are the other points. ``faces`` is the number of faces.
+    ``images`` are the positions of the vertices in the order of ``Hull.vertices``, and ``hidden`` is True for each
+    hidden vertex. ``boundary`` and ``inside`` have the boundary points and the inside points. ``faces`` is the number
+    of faces.
     """
 
     dimension: int

@@ -46,7 +46,7 @@ def run(name: str, build: Callable[[], str]) -> int:
 
 
 def fill(frame: str, **texts: str) -> str:
-    """Replace each placeholder ``__NAME__`` in a frame by the text of that name."""
+    """Replace each placeholder ``__NAME__`` in a template by the text of that name."""
     for name, text in texts.items():
         frame = frame.replace(f"__{name}__", text)
     return frame

@@ -92,7 +92,7 @@ class Chart:
 
 
 def chart(flow: Flow, height: int = 860) -> Chart:
-    """Lay out a flow on pages of at most ``height`` pixels. A box that is taller than a page gets a page of its own.
+    """Lay out a flow on pages of at most ``height`` pixels. A taller box is placed on a separate page.
 
     A page of the default height fits on a sheet of paper if its letters have a size of 6.7 points.
     """

@@ -1,6 +1,6 @@
 """The emulator in the browser: the HTML of its two pages, and the file with Python and the project that both load.
 
-The HTML frames of the pages and the script of the web worker are in ``docs/console``. The other scripts are in
+The HTML templates of the pages and the script of the web worker are in ``docs/console``. The other scripts are in
 ``docs/_static``. Python for the browser is the npm package ``pyodide``, which ``docs/console/package-lock.json`` pins.
 The project itself is loaded from its wheel, lark and mpmath from the installed packages. The script
 ``docs/console/compile.mjs`` compiles all modules for Python in the browser. Without the npm package or the wheel, the

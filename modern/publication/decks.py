@@ -16,7 +16,10 @@ _FOLDERS = {"grounds": ("fortran_src", "grounds"), "counterexamples": ("transcri
 
 
 def offered() -> dict[str, list[list[str]]]:
-    """Return ``programs`` and ``decks`` as lists of name, title and kind. A program reads decks of the same kind."""
+    """Return ``programs`` and ``decks`` as lists of name, title and kind.
+
+    A program can read the decks that have the same kind as the program.
+    """
     programs = [[b.name, b.title, _KINDS[b.number]] for b in BUILT_INS]
     decks = [[f"example{n}", f"example {n} of chapter 6", POINTS] for n in EXAMPLES]
     decks += [[f"example{n}/punched", f"example {n}, punched by program 1", kind] for n, kind in _PUNCHED.items()]

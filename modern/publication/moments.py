@@ -144,7 +144,7 @@ def _state(now: Mapping[str, Any]) -> State:
 
 
 def _marks(block: Block, state: State, session: Session) -> Iterator[Mark]:
-    """Yield the marks of a block, except those whose variables do not name existing points."""
+    """Yield the marks of a block, except those whose variables do not contain numbers of existing points."""
     for mark in block.marks:
         kind, *names = mark.split() if mark.startswith(("plane ", "line ", "at ")) else ("points", *mark.split())
         values = [_value(name, session) for name in names]

@@ -1,7 +1,7 @@
 """Render the proof sheets (:mod:`modern.edition.sheets`) as HTML forms, as PDF, and as CSV tables to fill in.
 
-The frame of the form is ``proof_sheet.html``, that of the printed sheet ``proof_sheet.typ``.  A script of the form
-writes the answers as the CSV table that ``hull1620 apparatus --sheet`` reads.
+The template of the form is ``proof_sheet.html``, and the template of the printed sheet is ``proof_sheet.typ``. A script
+in the form writes the answers as the CSV table that ``hull1620 apparatus --sheet`` reads.
 """
 
 import tempfile

@@ -106,7 +106,7 @@ def _responsible(title: Element, name: str, task: str, holder: str) -> None:
 
 
 def _date(parent: Element, year: str) -> None:
-    """Write a year, or ``notBefore`` if the year is only a lower bound (``1971 or later``)."""
+    """Write a year, as ``notBefore`` if the year is only a lower bound (``1971 or later``)."""
     add(parent, "date", year, **{"notBefore" if "or later" in year else "when": year[:4]})
 
 

@@ -35,13 +35,13 @@ Hull = dict[str, Any]
 def verdict(program: Program, deck: Deck, options: Options) -> dict[str, Any]:
     """Compare a run with exact arithmetic, and its hull with the true hull.
 
-    In the answer, ``lines`` describe the first decision that exact arithmetic takes differently, with the value and the
-    target in both arithmetics. If there is no such decision, ``lines`` states this, or gives the reason why the
-    comparison stopped. ``statement`` is the number of the deciding statement in the run. ``says`` is a sentence about
-    the result. ``hull`` is the true hull of the points that the program read, and ``final`` is the hull on the punched
-    cards. Both contain the same two lists: ``missed`` has the vertices that only the true hull has, and ``extra`` has
-    the vertices that only the program's hull has. ``wrong`` has the numbers of those faces of a hull that the other
-    hull lacks.
+    In the answer, ``lines`` describe the first decision at which exact arithmetic takes another branch, with the tested
+    value and the target of the branch in both arithmetics. If there is no such decision, ``lines`` states this, or
+    gives the reason why the comparison stopped. ``statement`` is the number of the deciding statement in the run.
+    ``says`` is a sentence about the result. ``hull`` is the true hull of the points that the program read, and
+    ``final`` is the hull on the punched cards. Both contain the same two lists: ``missed`` has the vertices that only
+    the true hull has, and ``extra`` has the vertices that only the program's hull has. ``wrong`` has the numbers of
+    those faces of a hull that the other hull lacks.
     """
     record = panel.Record(program)
     executed: list[int] = []

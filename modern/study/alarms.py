@@ -19,7 +19,7 @@ The measure also records which branch a program would take if it used a method t
 and ``parker10``, a number without a significant digit counts as zero.  With ``vote10``, the branch to which most of the
 ten samples lead is taken.  Chapter 7's e applies to the decisions that the layer ``epsilon`` changes.  This tolerance
 raises an alarm if the number is within e of zero, but not zero, and zero leads to another target.  The measure records
-the least power of ten that raises an alarm if it is used as e.
+the least power of ten that, used as e, would raise an alarm.
 """
 
 import hashlib
@@ -180,7 +180,7 @@ def _clipped(digits: float) -> float:
 
 @cache
 def _with_e(program: str) -> frozenset[str]:
-    """Return the statements of a program that chapter 7's e changes."""
+    """Return the statements of a program that the layer ``epsilon``, which implements chapter 7's e, changes."""
     texts = [
         {line.text for line in programs.with_layers(program, layers).statements}
         for layers in (("corrected",), ("corrected", "epsilon"))

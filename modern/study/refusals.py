@@ -42,8 +42,8 @@ def cells(samples: int, route: Programs) -> tuple[Cell, ...]:
 class Sheets:
     """The results of all data sheets with one share and form of decimals.
 
-    share: how many of 1,000 coordinates are decimals.  sets: the number of data sheets.  refused: the number that the
-    programs rejected.  otherwise: the number that failed in another way.
+    share: how many of 1,000 coordinates are decimals.  sets: the number of data sheets.  refused: the number of data
+    sheets that the programs rejected.  otherwise: the number of those that failed in another way.
     """
 
     share: int

@@ -169,7 +169,7 @@ def _program_routes(plan: Plan) -> Iterable[Programs]:
 
 
 def cut_lines(plan: Plan) -> tuple[str, ...]:
-    """Return a note for each route whose numbers lose digits on the cards between the programs."""
+    """Return a note for each route in which numbers lose digits when one program passes them to the next on cards."""
 
     def fits_cards(arithmetic: Numbers) -> bool:
         return isinstance(arithmetic, DecimalNumbers) and arithmetic.profile.rules.digits <= CARD_DIGITS
@@ -242,7 +242,7 @@ def check_plan(plan: Plan) -> None:
 
 
 def check_cell(cell: Cell, seed: int) -> None:
-    """Check a cell except for its routes, and draw its first sample.  Raise PlanError or FamilyError for a fault."""
+    """Check the fields of a cell except its routes, and draw its first sample.  Raise PlanError or FamilyError."""
     where = f"cell {cell.name}".rstrip()
     if cell.samples < 1 or cell.chunk < 1:
         raise PlanError(f"{where}: samples and chunk must be at least 1")

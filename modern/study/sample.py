@@ -19,7 +19,8 @@ CARD_DIGITS = 8
 class Sample:
     """A sample: its deck, its exact points, and its exact hull.
 
-    outcome: the exact hull in the form used for comparisons.  on: for each plane of the hull, the vertices on it.
+    outcome: the exact hull in the form used for comparisons.  on: for each plane of the hull, the set of the vertices
+    on this plane.
     """
 
     drawn: Drawn

@@ -84,7 +84,7 @@ class Store:
         return intact, messages
 
     def _files(self) -> Iterator[tuple[Chunk, bool]]:
-        """Yield each chunk, with True if it has a file.  Raise StudyFileError if a file of rows belongs to no chunk."""
+        """Yield each chunk, and True if its file exists.  Raise StudyFileError if a file belongs to no chunk."""
         present = {path.name for path in (self.folder / ROWS).glob("*.jsonl")}
         foreign = present - {chunk.name for chunk in self.plan.chunks()}
         if foreign:

@@ -42,7 +42,7 @@ class Summary:
         return self.of(cell, route) - self.hits(cell, route)
 
     def sound_from(self, cell: int, route: Callable[[int], str], tried: Sequence[int]) -> int | None:
-        """Return the least number tried from which on no sample failed, or None if one failed at the greatest number.
+        """Return the least number tried such that no sample failed with this or a greater number, or None.
 
         ``tried`` has the numbers in ascending order, and ``route`` returns the route that uses a number.
         """

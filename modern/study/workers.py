@@ -74,7 +74,7 @@ def chunk_text(cell: Cell, seed: int, chunk: Chunk, soon: bool = False) -> str:
 
 
 def work_on(cell: Cell, seed: int, chunk: Chunk, soon: bool = False) -> RowsOrError:
-    """Return the rows of a chunk and an empty text, or an empty text and the message of the error that occurred."""
+    """Return a pair: the rows of a chunk, and an empty text.  After an error, return an empty text and the message."""
     try:
         return chunk_text(cell, seed, chunk, soon), ""
     except EmulatorError as error:

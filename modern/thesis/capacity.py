@@ -1,9 +1,9 @@
 """Compute for how many points the hull programs fit into the core storage of a 1620.
 
-The programs have arrays of length 51, with one entry for each of N points.  Other arrays have length 98, with one entry
-for each plane, because a hull of N points in space has at most 2N-4 planes.  With the modern corrections to the
-listings (layer ``corrected``) the lengths are N+1 = 52 and 4N-11 = 193 for N = 51.  :mod:`emulator.objectdeck.extent`
-gives the length of the object program.
+The programs have arrays with one entry for each of N points, of length 51.  Other arrays have one entry for each plane.
+Their length is 98 = 2 x 51 - 4, because a hull of N points in space has at most 2N-4 planes.  With the modern
+corrections to the listings (layer ``corrected``) the lengths are N+1 = 52 and 4N-11 = 193 for N = 51.
+:mod:`emulator.objectdeck.extent` gives the length of the object program.
 """
 
 from collections.abc import Callable

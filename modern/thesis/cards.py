@@ -30,8 +30,8 @@ SECTIONS = ("inside", "boundary", "vertices", "equations", "plane")
 class CardHull:
     """A hull read from punched cards.
 
-    ``satisfied`` has pairs of the numbers of vertices and the number of an equation that these vertices satisfy, all
-    counted from 1.  ``plane`` has the equation of the plane of a polygon.
+    ``satisfied`` has pairs: the numbers of some vertices, and the number of an equation that is zero at these vertices.
+    All numbers are counted from 1.  ``plane`` has the equation of the plane of a polygon.
     """
 
     inside: tuple[Point, ...]

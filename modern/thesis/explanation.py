@@ -1,4 +1,4 @@
-"""Explain in sentences why a run found no hull, and at which branch exact arithmetic first takes another path.
+"""Explain in sentences why a run found no hull, and at which decision exact arithmetic first takes another branch.
 
 The commands ``hull`` and ``diff``, and the page of the site on which readers enter points, print the same sentences.
 """
@@ -50,7 +50,9 @@ def explanation(cause: Cause, arithmetic: str = "truncating") -> tuple[str, str,
 
 
 def first_disagreement(run: HullRun, options: Options) -> str:
-    """Return a sentence on the first branch of a run, with these options, that exact arithmetic takes differently.
+    """Return a sentence on the first decision of a run at which exact arithmetic takes another branch.
+
+    ``options`` are those of the run.
 
     In the exact run, the cards that pass from one program to the next also hold all digits of each number.  If that run
     cannot continue, for example because it divides by zero, the sentence gives the reason.

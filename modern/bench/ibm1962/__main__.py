@@ -87,13 +87,13 @@ def show(options: argparse.Namespace) -> int:
 
 
 def run_chapter6(options: argparse.Namespace) -> int:
-    """Run the examples of the thesis's chapter 6 on the library.  Return 1 if the results differ."""
+    """Run the examples of the thesis's chapter 6 on the library.  Return 1 if the results differ from the committed."""
     library()
     return max(_committed(f"{FOLDER}/{name}", text, options.write) for name, text in results().items())
 
 
 def _committed(path: str, text: str, write: bool) -> int:
-    """Compare a result with its committed file.  If ``write``, replace the file first.  Return 1 if they differ."""
+    """Compare a result with its committed file, or replace the file if ``write``.  Return 1 if they differ, else 0."""
     if write:
         write_text(path, text)
     same = read_text(path) == text
@@ -102,7 +102,7 @@ def _committed(path: str, text: str, write: bool) -> int:
 
 
 def run_times(options: argparse.Namespace) -> int:
-    """Measure the simulated time of runs on the library.  Return 1 if the results differ."""
+    """Measure the simulated time of runs on the library.  Return 1 if the times differ from the committed ones."""
     return _committed(times.FILE, times.table(), options.write)
 
 

@@ -2,8 +2,8 @@
 
 ``tests/data/vectors/ibm1962.tsv`` has a line for each statement, with seven columns: the verb, the FORMAT, the numbers
 of the list before the execution, the data cards, the typed lines, the punched cards without sequence numbers, and the
-numbers of the list after the execution.  A bar follows each entry of the last five columns.  The file contains no code
-by IBM.
+numbers of the list after the execution.  In the last five columns, a vertical bar follows each number, card and line.
+The file contains no code by IBM.
 """
 
 from __future__ import annotations

@@ -148,7 +148,7 @@ def compare(name: str, program: Program, deck: Deck, operator: str = "") -> Comp
 
 
 def subjects() -> Iterator[tuple[str, Program, Deck, str]]:
-    """Yield the programs to compare, each with its name, an input deck and the actions of its operator."""
+    """Yield the programs to compare: for each, its name, the program, an input deck, and its operator's actions."""
     decks = {f"example {example}": input_deck(example) for example in EXAMPLES}
     decks |= {path.name: read_deck(str(path)) for path in sorted(Path(COUNTEREXAMPLES).glob("*.deck"))}
     for first in ("program1_examples", "program1"):

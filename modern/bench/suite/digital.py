@@ -91,7 +91,7 @@ def lines() -> Iterator[str]:
 
 
 def table(volume: Volume, slow: bool) -> Table:
-    """Time three ways to find the hull of a solid's voxel centres.  If ``slow``, time scikit-image once too.
+    """Time three ways to find the hull of a solid's voxel centres.  If ``slow``, also time one run of scikit-image.
 
     Times are in processor seconds.  The title of the table reports if the hulls are not the same.
     """

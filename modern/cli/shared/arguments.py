@@ -103,7 +103,7 @@ def output_argument(parser: ArgumentParser, metavar: str = "FILE", formats: str 
 
 
 def result_file_argument(parser: ArgumentParser, contents: str) -> None:
-    """Add ``--output`` for a command that writes a file only if the user names one."""
+    """Add ``--output`` to a command that writes no file unless the user names one."""
     add(parser, {"-o --output FILE": f"write {contents}"}, type=OutputFile)
 
 
@@ -162,7 +162,7 @@ def upcase_argument(parser: ArgumentParser) -> None:
 
 
 def points_argument(parser: ArgumentParser, metavar: str = "POINTS", note: str = "") -> None:
-    """Add a file of points in any supported format."""
+    """Add an argument that names a file of points in any supported format."""
     text = (
         f"{listed(POINTS.values())}{note}, or the name of a set: example5 of the thesis, sample seventy/17 of a study, "
         "or figure appel-will/fig18 of a paper"

@@ -24,7 +24,7 @@ OK, DIFFERS, BAD_INPUT = 0, 1, 2
 
 
 class UsageError(EmulatorError):
-    """Raised for options or arguments that cannot be carried out; the message names the option."""
+    """Raised for options or arguments that are invalid or cannot be combined; the message names the option."""
 
 
 class InputFile(str):
@@ -90,7 +90,7 @@ def print_report(args: argparse.Namespace, lines: Iterable[str]) -> None:
 
 
 def write_folder(folder: str, texts: Mapping[str, str], encoding: str = "ascii") -> None:
-    """Write texts to files, by name, in a folder, which is made if missing.  Raise FileError if that fails."""
+    """Write a file for each name and text to a folder, which is made if missing.  Raise FileError if that fails."""
     from emulator.files import reason, writing_bytes  # imported here because --help does not need it
 
     try:
@@ -128,12 +128,12 @@ def write_json(args: argparse.Namespace, document: object) -> None:
 
 
 def counted(count: int, noun: str) -> str:
-    """Return a count with its noun in the right number: ``1 voxel`` or ``2 voxels``."""
+    """Return a count and its noun, in the singular or the plural: ``1 voxel`` or ``2 voxels``."""
     return f"{count} {noun}{'s' * (count != 1)}"
 
 
 def check_numbered(pattern: str, noun: str, example: str) -> None:
-    """Raise UsageError if the name of an output has no place for a number."""
+    """Raise UsageError unless the name of an output has a placeholder for a number, such as a label or a card."""
     if not _NUMBERED.fullmatch(pattern):
         raise UsageError(f"--output: {quoted(pattern)} has no place for a {noun}; write a name such as {example!r}")
 

@@ -41,8 +41,8 @@ def points_of(name: str) -> Input:
 def deck_of(name: str, points: bool = False) -> Deck:
     """Return the deck of a file or of an example.  Raise EmulatorError if that fails.
 
-    points: the deck must hold points.  If the file has points in another format, the error message names the command
-    that makes a deck of it.
+    points: True if the deck must hold points.  If the file has points in another format, the error message names the
+    command that makes a deck of it.
     """
     data, source = read_input(name), source_name(name)
     is_figure = _FIGURE.fullmatch(name) is not None

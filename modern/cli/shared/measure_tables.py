@@ -1,6 +1,7 @@
 """Format the measures of solids and hulls: as lines for one solid, and as a table or CSV for many labels.
 
-Lines and tables show numbers to twelve digits.  CSV has fifty digits, and exact fractions in further columns.
+Lines and tables show numbers to twelve digits.  CSV shows fifty digits, and has further columns with the exact
+fractions.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -22,7 +23,7 @@ TABLE_DIGITS = 12
 class Cell:
     """A number of a row with the name of its column.
 
-    with_fraction: CSV also has the exact fraction, in a further column.
+    with_fraction: True if a further column of the CSV table has the exact fraction.
     """
 
     name: str

@@ -42,7 +42,7 @@ def write_outputs(args: argparse.Namespace, punched: Iterable[str], typed: Itera
 def print_run(
     args: argparse.Namespace, program: Program, result: Result, reported: Collection[tuple[int, int]] = ()
 ) -> None:
-    """Print the notes on a run, its profile if ``--profile`` asks for it, and its ending if it is not normal.
+    """Print the notes on a run, its profile if the user gave ``--profile``, and its ending if it is not normal.
 
     reported: the card and column of each field whose note has already been printed.
     """

@@ -30,7 +30,7 @@ class _Pair:
 
 
 def masks_by_column(first: str, second: str) -> Masks:
-    """Return the carets for the differences between two cards, which are compared column by column."""
+    """Compare two cards column by column, and return the carets that mark their differences."""
     width = max(len(first), len(second))
     differ = [a != b for a, b in zip(first.ljust(width), second.ljust(width), strict=True)]
     mask = "".join("^" if differs else " " for differs in differ).rstrip()
@@ -38,7 +38,7 @@ def masks_by_column(first: str, second: str) -> Masks:
 
 
 def masks_by_text(first: str, second: str) -> Masks:
-    """Return the carets for the differences between two printed lines, whose spacing is ignored."""
+    """Compare two printed lines without regard to spacing, and return the carets that mark their differences."""
     masks = [["^" if c.strip() else " " for c in line] for line in (first, second)]
     for block in SequenceMatcher(None, first, second, autojunk=False).get_matching_blocks():
         for mask, start in zip(masks, (block.a, block.b), strict=True):

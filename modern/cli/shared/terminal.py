@@ -195,7 +195,7 @@ class Terminal(Operator):
         self._keys.write("".join(f"-- {line}\n" for line in wrapped(text, self._keys.width - 3)))
 
     def _collect(self) -> None:
-        """Collect the keys that were pressed while the machine ran; they answer the next question."""
+        """Collect the keys that were pressed while the machine ran, as the beginning of the next answer."""
         while not self._keys.is_gone and self._keys.is_ready():
             self._ahead.append(self._keys.key())
 

@@ -20,7 +20,7 @@ FRAME = 212, 230
 
 
 def title_and_imprint() -> str:
-    """Return the title page, the imprint on its back, and the contents, from the frame ``front.typ``."""
+    """Return the title page, the imprint on its back, and the contents, from the template ``front.typ``."""
     fields, thesis = citation(), document_of(THESIS)
     released = fields["date-released"]
     texts = {

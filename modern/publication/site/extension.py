@@ -1,6 +1,7 @@
 """The Sphinx extension: the directive ``made``, links to files of the project, and the writer of the HTML.
 
-The templates (``docs/_templates``) make the frame of a page accessible. The writer does the same for the text.
+The templates (``docs/_templates``) make the parts around the text of a page accessible, and the writer makes the text
+accessible.
 """
 
 import json

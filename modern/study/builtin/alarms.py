@@ -2,8 +2,8 @@
 
 Every set goes through the corrected programs in eight-digit arithmetic.  Each decision up to the first wrong one is
 compared with the decision of exact arithmetic on the same branch.  The study counts the decisions at which stochastic
-arithmetic, intervals, sixteen digits and chapter 7's e raise an alarm (modern/study/alarms.py).  ``samples`` counts the
-sets of each family.
+arithmetic, intervals, sixteen digits and chapter 7's e raise an alarm (modern/study/alarms.py).  ``samples`` is the
+number of point sets of each family.
 """
 
 import json
@@ -87,9 +87,10 @@ class _Group:
     """Counts of the runs of one or several cells.
 
     wrong: runs with a wrong decision.  sound: runs in which all decisions are right.  The other attributes are counts
-    by method.  noticed: runs with an alarm at the first wrong decision.  repaired: runs whose first wrong decision the
-    method takes rightly.  warned: runs with an alarm at or before the first wrong decision.  alarmed: sound runs with
-    an alarm.  spoiled: sound runs with a decision that the method would change.  false: alarms at right decisions.
+    by method.  noticed: runs with an alarm at the first wrong decision.  repaired: runs in which the method, used to
+    decide, would take the right branch at the first wrong decision.  warned: runs with an alarm at or before the first
+    wrong decision.  alarmed: sound runs with an alarm.  spoiled: sound runs with a decision that the method would
+    change.  false: alarms at right decisions.
     """
 
     wrong: int = 0
@@ -128,7 +129,7 @@ class _Group:
         return max(POWERS, key=lambda k: self.noticed[e_name(k)])
 
     def share(self, counter: Counter[str], name: str) -> Interval | None:
-        """Return a method's count as a share of all runs of the kind that ``counter`` counts: sound or wrong runs."""
+        """Return a method's count as a share of all sound runs, or of all wrong runs, depending on ``counter``."""
         of = self.sound if counter is self.alarmed or counter is self.spoiled else self.wrong
         return exact(counter[name], of) if of else None
 

@@ -1,8 +1,8 @@
 """Study whether program 3 can handle N = 51 points: how many entries of its plane table do N points need?
 
-The construction in exact arithmetic gives the largest number of entries in use at once.  Runs of the programs as listed
-show for which sets the 98-entry table is large enough.  Coordinates have two digits.  ``samples`` is the number of sets
-of each family and N.
+The largest number of entries in use at once is counted in a construction in exact arithmetic.  Runs of the programs as
+listed show for which sets the 98-entry table is large enough.  Coordinates have two digits.  ``samples`` is the number
+of sets of each family and N.
 """
 
 from dataclasses import dataclass

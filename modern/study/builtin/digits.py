@@ -66,7 +66,7 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
 
 
 def least(counts: Summary, cell: int) -> int | None:
-    """Return the least number P of digits such that no set of the cell failed with P or more, or None."""
+    """Return the least number P of digits such that no set of the cell failed with P or more digits, or None."""
     return counts.sound_from(cell, working, WORKING)
 
 

@@ -3,7 +3,7 @@
 Each set goes through the programs as listed.  Then every program runs again in exact arithmetic on the same cards, in
 step with the first run, up to the first IF, computed GO TO or end of a DO at which the two runs diverge
 (emulator/machine/divergence.py).  On the cards between two programs, equations are truncated to eight digits, so the
-points that define a plane may no longer satisfy its equation.  ``samples`` counts the sets of each family.
+points that define a plane may no longer satisfy its equation.  ``samples`` is the number of point sets of each family.
 """
 
 from collections import Counter
@@ -53,8 +53,8 @@ def plan(samples: int = SAMPLES, seed: int = 1963) -> Plan:
 class _Divergences:
     """Counts of sets by cell and by the first statement at which the two runs decide differently.
 
-    right: the same counts for sets whose hull is right.  undecided: the number of sets that exact arithmetic cannot
-    follow.
+    right: counts of the same kind, but only of sets whose hull is right.  undecided: the number of sets that exact
+    arithmetic cannot follow.
     """
 
     counts: Counter[tuple[int, str]]

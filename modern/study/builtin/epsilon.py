@@ -257,7 +257,11 @@ def _conclusions(plan: Plan, rows: _Rows, store: Store) -> tuple[str, ...]:
 
 
 def _same_as_port(store: Store) -> tuple[int, int]:
-    """Return how many runs agree, except in order, with the port at the same e, and the number of compared runs."""
+    """Return the number of runs in which the programs and the port agree, and the number of compared runs.
+
+    Runs with the same e are compared.  They agree if their outcomes are equal, or if both hulls are right and differ at
+    most in order.
+    """
     same = of = 0
     for k in ABSOLUTE:
         alike, runs = next(
@@ -275,9 +279,9 @@ def _same_as_port(store: Store) -> tuple[int, int]:
 def _wrong_outside(plan: Plan, rows: _Rows, store: Store, below: bool) -> tuple[int, int]:
     """Return the number of sets with a wrong hull at an e that is too small or too large, and the number of all sets.
 
-    If ``below`` is true, only each e that is too small counts, otherwise only each e that is too large.  An e is too
-    small (too large) if it is below (above) every e with which no set of the cell fails.  A cell counts only if such an
-    e without failures exists.
+    If ``below`` is true, only values of e that are too small are counted, otherwise only values that are too large.  An
+    e is too small (too large) if it is below (above) every e with which no set of the cell fails.  A cell counts only
+    if such an e without failures exists.
     """
     wrong = of = 0
     for number, cell in enumerate(plan.cells):

@@ -1,7 +1,7 @@
 """Study how the time on a 1620 (reader, punch, typewriter and processor) depends on the number of points.
 
 The corrected programs are used, so that no set fails because of faults of the listing.  The times come from
-emulator/machine/timing.py.  ``samples`` counts the sets of each family and N.
+emulator/machine/timing.py.  ``samples`` is the number of point sets of each family and N.
 """
 
 from dataclasses import dataclass

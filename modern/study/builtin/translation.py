@@ -143,7 +143,7 @@ class _Pair:
     moved: Mapping[str, float]
 
     def saved(self, part: str) -> float:
-        """Return the share of a figure that moving the origin saves.  The share is negative if moving costs more."""
+        """Return the share of the figure ``part`` that moving the origin saves.  A negative share is a loss."""
         return (self.plain[part] - self.moved[part]) / self.plain[part] if self.plain[part] else 0.0
 
     @property

@@ -27,7 +27,7 @@ def published_sets() -> dict[str, tuple[Point, ...]]:
 
 
 def published(draw: Draw, sets: Sequence[str] = (), shuffle: bool = False) -> Drawn:
-    """The point sets printed in the thesis: sample k is the k-th of the named ``sets`` (default: all), cyclically.
+    """The point sets printed in the thesis: sample k is the k-th of ``sets`` (default: all), repeated cyclically.
 
     ``shuffle`` changes the order of the points at random.
     """

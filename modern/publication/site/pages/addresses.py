@@ -55,7 +55,7 @@ def make(argument: str) -> list[Part]:
 
 
 def places() -> Iterator[Place]:
-    """Yield the entries of the Index, statements last. Of entries with the same name, the first is the best match."""
+    """Yield the entries of the Index, statements last. If entries have the same name, the best match comes first."""
     for entries in (_subjects(), _errors(), _rows(), _names(), *map(_cards, _ORDER)):
         yield from entries
     for document in DOCUMENTS:
