@@ -32,7 +32,7 @@ class Compiler:
 
 
 def compiler() -> Compiler:
-    """Return the Fortran compiler named by FC, or the first one installed.  Raise NoCompiler if there is none."""
+    """Return the Fortran compiler that the variable FC names, or the first one found. Raise NoCompiler without one."""
     try:
         command_of_fc = shlex.split(os.environ.get("FC", ""))
     except ValueError as error:

@@ -35,7 +35,7 @@ class Figure:
 
 
 def timed_once(what: str, work: Callable[[], object]) -> Figure:
-    """Time ``work`` once, because it cannot be repeated or takes too long for five runs."""
+    """Time ``work`` once. Use this for work that cannot be repeated or takes too long for five runs."""
     return Figure(what, (_seconds(work),))
 
 

@@ -1,4 +1,4 @@
-"""``hull1620 export-job``: write a program and its data as a job for a compiler of the time, under SIMH."""
+"""``hull1620 export-job``: write a program and its data as a job for a compiler of the 1960s, run in SIMH."""
 
 import argparse
 from dataclasses import replace

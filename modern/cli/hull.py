@@ -1,4 +1,4 @@
-"""``hull1620 hull``: check a data deck, then run program 1 and the program that its typewriter names."""
+"""``hull1620 hull``: check a data deck, then run program 1, and program 2 or 3 as program 1 requests."""
 
 import argparse
 import sys

@@ -123,7 +123,7 @@ def _match(equations: Sequence[Equation], exact: Sequence[Equation]) -> list[_Ma
 
 
 def _scaled(equation: Equation) -> Equation:
-    """Divide an equation by its largest coefficient of x, y or z.  If these are zero, return the equation unchanged."""
+    """Divide an equation by its largest coefficient of x, y or z.  If all three are zero, return it unchanged."""
     size = max(abs(c) for c in equation[:3])
     return equation if not size else tuple(c / size for c in equation)  # type: ignore[return-value]
 

@@ -174,7 +174,7 @@ def _four(equation: Sequence[Fraction]) -> Equation:
 
 
 def _lines(hull: ExactHull, points: Sequence[Vector]) -> list[Equation]:
-    """Return the equations of a polygon's edges, projected, with negative values at the other vertices."""
+    """Return the equations of a polygon's edges, projected.  Each is negative at the vertices not on its edge."""
     assert hull.plane is not None
     drop = next(k for k in range(3) if hull.plane[k])
     u, v = (k for k in range(3) if k != drop)

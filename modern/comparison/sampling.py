@@ -231,7 +231,7 @@ def independent(
 
 
 def _compared(program: Program, pc: int, signs: Sequence[Sequence[int]]) -> DecisionShares:
-    """Compare the signs that the runs find at each execution of an IF.  ``taken`` is the most frequent sign."""
+    """Compare the signs that the runs find at each execution of an IF.  The most frequent sign becomes ``taken``."""
     votes = _Votes()
     for execution in zip_longest(*signs):
         reached = [sign for sign in execution if sign is not None]

@@ -64,7 +64,8 @@ def fit(images: Sequence[Flat], width: int, highest: int, margin: int = MARGIN) 
     """Return a function that converts positions to pixels, and the height of the picture.
 
     The scale is the largest one at which all positions fit into a picture with a margin of ``margin`` pixels on each
-    side. The picture is ``width`` pixels wide with its margins, and at most ``highest`` pixels high without them.
+    side. The width of the picture, including both margins, is ``width`` pixels. Its height without margins is at most
+    ``highest`` pixels.
     """
     x_min, x_max = _ends(image[0] for image in images)
     y_min, y_max = _ends(image[1] for image in images)

@@ -12,9 +12,11 @@ out.  This detects superfluous and wrong rows.  Grounds use only the printed tex
                 ``"carrier"``: the equation of the common plane of example 4 is zero at all points; ``"centre"``: the
                 inside point C is the mean of the first four points; ``"minus-with-point"``: in the named lines the OCR
                 lost the decimal points of exactly the negative numbers
-``sibling``     ``words`` occur in the changed lines ``own`` and in ``lines``, which are in another part of the chapter
-``order``       ``lines``: the row puts these lines of the witness in the order of their first columns; ``role``: the
-                numbers of the cards with this role count up from 1; ``page``: the row deletes the number of a page
+``sibling``     the text ``words`` occurs in the changed lines, which the key ``own`` of the ground names, and also in
+                the lines that the key ``lines`` names, which are in another part of the chapter
+``order``       a ground with the key ``lines``: the row sorts these lines of the witness by the column in which each of
+                them begins.  With ``role``: the cards with this role are numbered 1, 2, 3 and so on.  With ``page``:
+                the row deletes the number of a page
 """
 
 import re
@@ -209,7 +211,7 @@ def _order(chapter: Chapter, row: Row, ground: Ground) -> bool:
 
 
 def _by_columns(chapter: Chapter, row: Row, ids: Sequence[str]) -> bool:
-    """Return True if the row puts lines of the witness that are out of order into the order of their first columns."""
+    """Return True if the row sorts unsorted lines of the witness by the column in which each of them begins."""
     witness = [line for line in chapter.text.witness if line.id in ids]
     ordered = sorted(witness, key=lambda line: len(line.text) - len(line.text.lstrip()))
     others = frozenset(r.id for r in chapter.text.rows) - {row.id}

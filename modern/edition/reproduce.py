@@ -192,7 +192,7 @@ def _same_results(printed: Sequence[str], produced: Sequence[str], oriented: boo
 
 
 def _same_deck(printed: Sequence[str], produced: Sequence[str]) -> bool:
-    """Return True if a deck has the printed points in another order, and its planes hold at the points they name."""
+    """Return True if a deck has the printed points in another order, and equations that are zero at their points."""
     expected, actual = read_intermediate(printed), read_intermediate(produced)
     if expected is None or actual is None or expected.points == actual.points:
         return False

@@ -181,7 +181,6 @@ def _names() -> frozenset[str]:
 
 @cache
 def _confused(char: str) -> tuple[str, ...]:
-    """Return the characters of cards with which a character may be confused."""
     pairs = [(p.witness, p.lemma) for p in table() if p.cls == "confusable" and len(p.witness) == len(p.lemma) == 1]
     partners = [b for a, b in (*pairs, *((b, a) for a, b in pairs)) if a == char]
     return tuple(dict.fromkeys(c for c in partners if c in CHARACTERS.difference(RECORD_MARKS)))

@@ -80,7 +80,7 @@ def parting_page() -> str:
 
 
 def point_sets() -> dict[str, str]:
-    """Return the point sets that the page offers by name, as texts with one point on each line."""
+    """Return the point sets that the page offers: for each name, a text with one point on each line."""
     plane = ((0, 0), (90, 10), (100, 60), (40, 90), (-30, 60), (30, 40), (50, 35))
     solid = ((123, 456, 789), (987, 654, 321), (111, 999, 555), (345, 678, 901), (222, 333, 444), (871, 12, 345))
     decks = {
@@ -130,8 +130,8 @@ def install_machine(folder: Path, wheel: Path | None) -> int:
     """Write the files that the pages load into ``folder``, and return the number of bytes that a browser loads.
 
     ``machine.gzip`` contains all files that Python needs. ``machine.js`` has the same bytes for a site that is opened
-    without a web server, because such a page can load only scripts. Without a wheel or the npm package, the number is
-    0, and only ``size.js`` is written, which tells the pages that the emulator is missing.
+    without a web server, because such a page can load only scripts. Without a wheel or the npm package, the function
+    returns 0, and only ``size.js`` is written, which tells the pages that the emulator is missing.
     """
     folder.mkdir(parents=True, exist_ok=True)
     npm, size, version = SOURCE / "node_modules" / "pyodide", 0, ""
@@ -170,7 +170,7 @@ def packed(files: Mapping[str, bytes]) -> bytes:
 
 
 def _compiled(npm: Path, archives: Sequence[bytes]) -> list[bytes]:
-    """Return the archives with each module compiled. The results have no source code."""
+    """Return the archives with compiled modules in place of the source code."""
     if not (node := shutil.which("node")):
         raise BuildError("node is missing, which compiles the modules of the emulator for the browser; install Node.js")
     with tempfile.TemporaryDirectory() as folder:

@@ -301,7 +301,7 @@ class Desk:
         return self._earlier + self._log.getvalue()
 
     def _begin(self, loaded: _Loaded, log: str) -> Session:
-        """Put the loaded program and deck into a new machine, whose operator first repeats a log."""
+        """Return a new machine with the loaded program and deck. Its operator first repeats the actions in ``log``."""
         self._record = panel.Record(loaded.program)
         self._session = session = Session(loaded.program, loaded.deck, loaded.options, tracer=self._record)
         self._visitor, self._cards, self._ending = _Visitor(self._record, log), Cards(), False

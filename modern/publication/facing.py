@@ -5,8 +5,8 @@ The module collects only facts. The site and the book present them.
 Every card has a *place*, a name that is counted from the programmer's statement numbers and therefore stays valid when
 the numbering of the deck changes. ``147+2`` is the second statement after statement 147. ``0+1`` is the first statement
 of a deck that does not begin with a numbered statement. ``before-106`` is the comment before statement 106, and
-``title`` is the first comment. Counting may continue past the next number: if 148 is the statement after 147, ``147+2``
-is also ``148+1``, and the card has both names.
+``title`` is the first comment. Counting may continue past the next numbered statement: if 148 is the statement after
+147, ``147+2`` is also ``148+1``, and the card has both names.
 """
 
 import re

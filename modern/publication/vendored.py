@@ -56,7 +56,6 @@ def pins(lock: str) -> dict[str, str]:
 
 
 def _with_dependencies(roots: Sequence[str]) -> set[str]:
-    """Return the names of the packages ``roots`` and of all packages that they need on this platform."""
     queue, visited = [Requirement(line) for line in roots], set[tuple[str, frozenset[str]]]()
     while queue:
         requirement = queue.pop()

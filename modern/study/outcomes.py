@@ -176,7 +176,7 @@ def _determined(outcome: compared.Outcome, sample: Sample, hull: CardHull | Hull
 
 
 def _fault(outcome: compared.Outcome, sample: Sample, difference: Disagreement, hull: CardHull | Hull) -> Fault | None:
-    """Return the first fault of a hull in the order of ``Fault``, or None."""
+    """Return the first of the faults listed in ``Fault`` that a hull has, or None if it has none."""
     faults: tuple[tuple[object, Fault], ...] = (
         (outcome.dimension != sample.hull.dimension, "dimension wrong"),
         (outcome.strange, "coordinates changed"),

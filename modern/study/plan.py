@@ -223,7 +223,7 @@ class Plan:
 
     @classmethod
     def of_document(cls, data: Mapping[str, Any]) -> "Plan":
-        """Return a plan from its JSON data. Raise KeyError, TypeError, ValueError or AttributeError for other data."""
+        """Return a plan from JSON data.  Raise KeyError, TypeError, ValueError or AttributeError for invalid data."""
         cells = tuple(
             Cell(**{**cell, "key": dict(cell["key"]), "routes": tuple(map(_route_of_document, cell["routes"]))})
             for cell in data["cells"]

@@ -1,4 +1,4 @@
-"""Run the hull programs on a data deck: program 1, then the program that its typewriter names (thesis p. 59)."""
+"""Run the hull programs on a data deck: program 1, then program 2 or 3, as program 1 requests (thesis p. 59)."""
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
@@ -114,7 +114,7 @@ def run_hull(
     operator: Operator | None = None,
     output: Output | None = None,
 ) -> HullRun:
-    """Run one data set through program 1 and the program that its typewriter names.
+    """Run program 1 on one data set, and then program 2 or 3, as program 1 requests on the typewriter.
 
     With ``options.uncut`` the second program reads the numbers of program 1 with all digits, not only those on cards.
     ``first`` names the built-in program that is used as program 1.  ``watch`` is called with each machine before it

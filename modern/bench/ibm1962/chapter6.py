@@ -80,7 +80,7 @@ def digest(cards: Sequence[str]) -> str:
 
 
 def _means() -> str:
-    """Return TOML text with the hashes of the library and the programs, and the version of the simulator."""
+    """Return TOML text that identifies the library and the programs by hashes, and the simulator by its version."""
     version = subprocess.run([simulator()], input=b"quit\n", capture_output=True, check=False).stdout.decode("latin1")
     title = next((line.strip() for line in version.splitlines() if "1620" in line), "unknown")
     lines = [f'library = "{digest(library())}"', f'simulator = "{" ".join(title.split())}"', "", "[programs]"]

@@ -140,7 +140,7 @@ def by_scikit_image(array: Any) -> Any:
 
 
 def memory(side: int, way: str) -> str:
-    """Measure the peak memory of filling the hull of a ball.  Return the memory and the required limit as text."""
+    """Measure the peak memory of filling the hull of a ball.  Return the memory and the permitted maximum as text."""
     size, most = peak(side, way)
     return f"{most / 1e6:.0f} MB, required: at most {(4 * size + 300e6) / 1e6:.0f} MB"
 

@@ -184,7 +184,7 @@ class CurrentPolyhedron:
 class Waiting:
     """The points still to be inserted, each with one face that is visible from it.
 
-    ``face`` has this face for each point, and ``lists`` has the points for each face.
+    ``face`` has this face for each point, and ``lists`` has, for each face, the points to which it is assigned.
     """
 
     def __init__(self, polyhedron: CurrentPolyhedron, numbers: Iterable[int]) -> None:

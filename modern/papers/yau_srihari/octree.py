@@ -7,7 +7,7 @@ each level.
 
 As in section 5, each quadrant i of the square (x, y) belongs to two octants, sons of a node: son 2 i is the lower half
 of the node's cube over the quadrant, and son 2 i + 1 is the upper half. Quadrant i is the half i mod 2 in x and the
-half i div 2 in y. The figures that show the paper's own numbers of quadrants are lost.
+half i div 2 in y. The paper may number the quadrants differently, but its figures, which showed the numbers, are lost.
 
 References
 ----------

@@ -165,7 +165,7 @@ def _numbered(file: str, title: str, name: str) -> str:
 
 
 def _picture(file: str, folder: Path) -> str:
-    """Copy an SVG file into the folder of the book and return its name there, or "" for another file."""
+    """Copy a picture into the folder of the book and return its name there, or "" if the file is not an SVG file."""
     source = DOCS / file
     if source.suffix != ".svg" or not source.is_file():
         return ""

@@ -71,7 +71,7 @@ def call(name: str, *content: str, **named: str) -> str:
 
 
 def label(*parts: str) -> str:
-    """Return a label made from texts. A character that is not allowed in labels is replaced by its code."""
+    """Return a Typst label made from ``parts``.  A character that labels cannot contain is replaced by its code."""
     joined = "--".join(parts)
     return "".join(c if c.isalnum() and c.isascii() else "-" if c in "-_ " else f".{ord(c):x}." for c in joined)
 

@@ -23,7 +23,8 @@ _NOT_PUBLISHED = (".buildinfo", "objects.inv")
 def build(out: Path, docs: Path = ROOT / "docs", quiet: bool = False, wheel: Path | None = None) -> None:
     """Build the site into a folder, and replace an earlier site there. With ``wheel``, the site includes the emulator.
 
-    Raise BuildError if the folder holds something else, if Sphinx is missing, or if Sphinx reports a warning.
+    Raise BuildError if the folder holds files that are not a site, if Sphinx is missing, or if Sphinx reports a
+    warning.
     """
     check_replaceable(out, _MARKER, "a site built by hull1620")
     out.parent.mkdir(parents=True, exist_ok=True)
