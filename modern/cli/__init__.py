@@ -13,6 +13,6 @@ How to add a command:
    written or is also an input.  Print the report of the command with ``print_report``, which uses standard error if
    the data go to standard output.  ``NAMES`` in ``modern/cli/shared/arguments.py`` lists the names of examples that the
    shell completes.
-5. ``tests/modern/cli/``: test the exit codes and messages.  ``docs/reference/commands.md`` describes the command
-   automatically.
+5. ``tests/modern/cli/``: test the exit codes and messages.  The page ``docs/reference/commands.md`` is made from the
+   help texts and needs no change.
 """

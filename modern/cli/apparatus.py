@@ -145,7 +145,7 @@ def _write_sheets(folder: str) -> int:
 
 
 def _read_sheets(args: argparse.Namespace) -> int:
-    """Write a copy of the edition's data changed by the answers of proof sheets, and check it in a new process."""
+    """Write a copy of the edition's data that includes the answers of proof sheets, and check it in a new process."""
     if not args.state:
         raise UsageError("--sheet needs --state FOLDER, the folder to which the changed edition is written")
     readings = [reading for name in args.sheet for reading in read_sheet(source_name(name), read_text(name))]

@@ -3,7 +3,7 @@
 The position of a voxel is that of its centre. The centre of voxel (0, 0, 0) is the origin, and the centres of
 neighbouring voxels along an axis of the array differ by the step of that axis, a vector. As a solid, a voxel extends
 half a step from its centre in each direction. Spacing, origin and directions are read exactly, as decimals. Therefore a
-hull in physical coordinates is the exact image of the hull of indices.
+hull in physical coordinates is the exact image of the hull in voxel coordinates.
 """
 
 import math

@@ -187,10 +187,10 @@ class Desk:
         executed next, ``statement`` is the number of its statement in the run, and ``read`` is the number of cards
         read. ``time`` is the time on a 1620 with the bounds of its error, as text, and ``seconds`` is this time as a
         number. ``stands`` is the reason why the machine waits, or empty. ``waits`` is ``typed`` if the machine waits
-        for a line with ``fields``, ``answer`` if it waits for an action, or empty. ``registers`` has the floating-point
-        and the fixed-point accumulator. ``picture``, ``stages`` (the number of hulls so far) and ``wrote`` (the fields
-        written) come from :mod:`modern.publication.panel`. A run that returns to an earlier state would never end and
-        is stopped. ``repeats`` is then the number of statements that it repeats.
+        for a typed line (``fields`` lists its fields), ``answer`` if it waits for an action, or empty. ``registers``
+        has the floating-point and the fixed-point accumulator. ``picture``, ``stages`` (the number of hulls so far) and
+        ``wrote`` (the fields written) come from :mod:`modern.publication.panel`. A run that returns to an earlier state
+        would never end and is stopped. ``repeats`` is then the number of statements that it repeats.
 
         At the end of the run ``ended`` is true, ``messages`` has the messages that ``hull1620 run`` would print,
         ``next`` names the program that reads the punched cards, and ``queued`` is true if a log has further loads.

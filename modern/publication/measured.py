@@ -1,8 +1,8 @@
 """Measurements of every card: its executions and machine time in the printed examples, and its weight of evidence.
 
-Times are those of a 1620 Model 1 (:mod:`emulator.machine.timing`). The weight of evidence is the number of altered
-readings of the card that each check detects. The weights are read from ``docs/weight/cards.csv``, which exists only in
-a checkout.
+Times are those of a 1620 Model 1 (:mod:`emulator.machine.timing`). The weight of evidence of a card is, for each check,
+the number of altered readings of the card that the check detects. The weights are read from ``docs/weight/cards.csv``,
+which exists only in a checkout.
 """
 
 import csv

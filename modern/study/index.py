@@ -2,7 +2,7 @@
 
 The table ``samples`` has the columns cell, place (the index of the sample), n, dimension, vertices, planes, boundary,
 inside and tags (JSON).  The table ``runs`` has the columns cell, place, route, outcome, detail and figures (JSON).  The
-connection of a run locks the file, so a second run in the same folder fails.
+database connection of a run locks the file, so a second run in the same folder fails.
 """
 
 import json

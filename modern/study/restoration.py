@@ -1,10 +1,10 @@
 """Measure the rules of restoration: damage programs at random, restore them by the rules, and count the errors.
 
-The three listings and programs of a folder are damaged by :mod:`modern.edition.damage`, at the rates at which the OCR
-damaged the listings (``as the OCR``).  At these rates few arithmetic signs are lost, so few restored readings insert a
-sign.  Further copies therefore also lose a tenth of their signs and points (``signs lost``).
-:mod:`modern.edition.restorer` restores the copies in separate processes, which receive the damaged cards and the
-printed results and cannot open the originals.
+The programs are the three listings, and those in a folder that the caller names.  :mod:`modern.edition.damage` damages
+them at the rates at which the OCR damaged the listings (``as the OCR``).  At these rates few arithmetic signs are lost,
+so few restored readings insert a sign.  Further copies therefore also lose a tenth of their signs and points (``signs
+lost``).  :mod:`modern.edition.restorer` restores the copies in separate processes, which receive the damaged cards and
+the printed results and cannot open the originals.
 """
 
 import ast

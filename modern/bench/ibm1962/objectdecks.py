@@ -60,7 +60,7 @@ class Comparison:
     error: str = ""
 
     def differences(self) -> Iterator[tuple[str, str]]:
-        """Yield the cards or lines that differ in pairs: that of the library first, then that of the emulator."""
+        """Yield a pair for each difference: the card or line of the library, and the one of the emulator."""
         for library, emulator in zip(self.library, self.emulator, strict=True):
             yield from ((a, b) for a, b in zip_longest(library, emulator, fillvalue="") if a != b)
 

@@ -126,7 +126,7 @@ def growth() -> list[Curve]:
 
 
 def scikit_image(array: Any, filled: Any) -> tuple[Figure, bool]:
-    """Time scikit-image's hull of an array once.  Return the time, and True if it has the voxels of ``filled``."""
+    """Time scikit-image's hull of an array once.  Return the time, and True if that hull equals ``filled``."""
     results: list[Any] = []
     by_scikit_image(np.ones((2, 2, 2), dtype=np.bool_))  # The first call loads scikit-image.
     figure = timed_once(SCIKIT_IMAGE, lambda: results.append(by_scikit_image(array)))

@@ -65,6 +65,9 @@ def number_system(name: str, option: str) -> Numbers:
 
 
 def card_rules(options: Options) -> Rules:
-    """Return the rules for reading numbers from cards; only decimal arithmetics limit the number of digits."""
+    """Return the rules for reading numbers from cards.
+
+    A decimal arithmetic has its own rules.  For any other arithmetic, the rules keep 14 digits, the width of E14.8.
+    """
     arithmetic = options.numbers
     return arithmetic.profile.rules if isinstance(arithmetic, DecimalNumbers) else rules_of(FALLBACK.width)

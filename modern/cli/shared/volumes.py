@@ -33,7 +33,7 @@ def scan_of(args: argparse.Namespace) -> Scan:
 
 
 def choice_of(args: argparse.Namespace) -> Choice:
-    """Return the values of the voxels that belong to the solid: labels or a threshold.
+    """Return the condition on the values of the voxels that belong to the solid: labels or a threshold.
 
     Raise UsageError if the threshold is not a number.
     """

@@ -1,4 +1,4 @@
-"""Appel and Will's complete method: delete points, find the convex edges, and assemble them to the hull's faces."""
+"""Appel and Will's complete method: delete points, find the convex edges, and assemble them into borders of faces."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -96,7 +96,7 @@ def as_mesh(hull: Assembled, points: Sequence[Point]) -> Mesh:
 
 
 def as_record(hull: Assembled, points: Sequence[Point], joined: Joined | None = None) -> Record:
-    """Convert the assembled hull to a ``Record``, the type of hulls for output. Raise PictureError if it is no hull."""
+    """Convert the assembled hull to a ``Record``, which can be exported. Raise PictureError if it is no hull."""
     if hull.fault:
         raise PictureError(f"there is no hull to draw: {hull.fault}")
     surfaces = hull.outward() if joined is None else joined_surfaces(hull, joined)

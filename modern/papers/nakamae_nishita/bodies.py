@@ -303,7 +303,7 @@ def _far(closed: _Closed, hull: Hull, joined: Joined) -> int | None:
 
 
 def polyhedron_of_hull(hull: Hull, name: str, joined: Joined | None = None) -> Polyhedron:
-    """Return an exact hull, which is proved to be convex, as a polyhedron of a scene, or a polygon as a plate.
+    """Convert an exact hull, which is proved to be convex, to a polyhedron of a scene. A polygon becomes a plate.
 
     ``joined`` tells which faces are drawn as one face. Raise SceneError for a point or a segment.
     """

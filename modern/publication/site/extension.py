@@ -72,7 +72,7 @@ _SECTION = re.compile(r"(?:Page |Section |Sheet |Error )?(\d\S*?|[EF]\d+)[.:]?(?
 
 
 def _jump_list(content: list[Part]) -> str:
-    """Return a bar of links to the sections of a long page, or "" for a short page. The bar does not scroll away."""
+    """Return a bar of links to the sections of a long page, or "" for a short page.  The bar is always visible."""
     parts = [part for part in content if part.heading and part.level == 1]
     if len(parts) < _LONG:
         return ""

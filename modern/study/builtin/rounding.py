@@ -2,8 +2,8 @@
 
 Two tests are compared.  The exact test of the thesis requires that the three points of a plane give zero in its
 equation.  For this test, decimal arithmetics run in the programs with the layer ``corrected``, and binary arithmetics
-in the port.  For the interval of chapter 7 (thesis p. 117), scaled to the largest coefficient of each equation, all
-arithmetics run in the port.  ``samples`` is the number of point sets of a cell.
+in the port.  The other test is the interval of chapter 7 (thesis p. 117), scaled to the largest coefficient of each
+equation.  For this test, all arithmetics run in the port.  ``samples`` is the number of point sets of a cell.
 """
 
 from collections.abc import Mapping
