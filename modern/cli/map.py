@@ -1,4 +1,4 @@
-"""``hull1620 map``: print the addresses of arrays and variables, and the number of points that fit."""
+"""``hull1620 map``: print the addresses of arrays and variables, and how many points fit into core."""
 
 import argparse
 from collections.abc import Iterator

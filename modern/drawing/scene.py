@@ -156,7 +156,7 @@ def _edges(
 
 
 def _light(normal: Vector, sight: View) -> Fraction:
-    """Return the brightness of a face: (1 + cosine) / 2 of the angle between its normal and the direction of a lamp.
+    """Return the brightness of a face: (1 + c) / 2 for the cosine c of the angle between its normal and a lamp.
 
     The lamp is at the left shoulder of the viewer.
     """

@@ -146,7 +146,7 @@ def check_picture(path: str) -> None:
 def write_picture(path: str, svg: str) -> None:
     """Write a picture as PDF or PNG if the file name ends with .pdf or .png, otherwise as SVG.
 
-    Raise FileError, or ExportError if typst is not installed.
+    Raise FileError if the file cannot be written, and ExportError if typst is needed but not installed.
     """
     if not path.lower().endswith(PICTURES[1:]):
         write_text(path, svg)

@@ -32,9 +32,9 @@ def is_prose(card: str) -> bool:
 
 @lru_cache(1 << 18)
 def statement(card: str) -> tuple[tree.Statement | None, int]:
-    """Return the statement of a card, and 0. If the card has an error, return None, and the column of the first error.
+    """Return the statement of a card, or None, and the column of the card's first error, or 0.
 
-    For a comment, which has no statement, return None and 0.
+    The statement is None if the card has an error, and also if the card is a comment.
     """
     is_comment = card.startswith("C  ")
     bad = None if is_comment else _BAD.search(card)

@@ -80,7 +80,7 @@ class Collation:
 
 
 def collate(text: str, file: str = "") -> Collation:
-    """Collate a transcription of the listings, or of a part of them.  ``file`` is the name of its file."""
+    """Collate a transcription of the listings, or of a part of them.  ``file`` names the file of the transcription."""
     aligned = align(text)
     pieces = {n: _pieces(n, line) for n, (line, _) in aligned.items()}
     pairs = _pairs(aligned)

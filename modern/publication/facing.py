@@ -138,7 +138,7 @@ def facing(name: str) -> Facing:
 
 
 def page_of(row: Row) -> str:
-    """Return the built-in program on whose page a row of a listing is shown.
+    """Return the built-in program whose page of the site shows a row of a listing.
 
     The page of program1_examples shows only the rows that the listing of program 1 does not use.
     """

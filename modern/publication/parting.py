@@ -131,7 +131,7 @@ def _faces(points: Sequence[Whole], places: Sequence[int]) -> Iterator[tuple[int
 def _loop(points: Sequence[Whole], within: Sequence[int], normal: Whole) -> tuple[int, ...]:
     """Return the corners of the hull of points in one plane, in order (Andrew's monotone chain, 1979).
 
-    The points are projected along the axis in which the normal is largest.
+    The points are projected along the axis of the normal's largest component.
     """
     dropped = max(range(3), key=lambda axis: abs(normal[axis]))
     across, up = (axis for axis in range(3) if axis != dropped)

@@ -2,8 +2,8 @@
 
 docs/explanation/studies.md describes the outcomes.  For collinear points, the programs punch only the two ends of the
 segment.  For three points or fewer, the programs punch no inside points.  Two equations describe the same plane if
-their coefficients agree within :data:`modern.comparison.difference.NEAR`.  A figure records the largest error of a
-coefficient.
+their coefficients agree within :data:`modern.comparison.difference.NEAR`.  The largest error of a coefficient is stored
+with the outcome as a figure.
 """
 
 from collections.abc import Mapping

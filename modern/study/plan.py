@@ -77,7 +77,7 @@ class Programs:
 class Port:
     """A route through :func:`modern.port.convex_hull`.
 
-    history: keep the stages H_1, H_2, ... of the construction for the measures.
+    history: True to keep the stages H_1, H_2, ... of the construction for the measures.
     """
 
     name: str

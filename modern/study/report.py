@@ -129,7 +129,9 @@ def powers(exponents: Iterable[int]) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Series:
-    """A series of a chart: its name, and its points.  A point is the name of a bar or a number x, and an interval."""
+    """A series of a chart: its name, and its points.  A point is a pair: the name of a bar or a number x, and an
+    interval.
+    """
 
     name: str
     points: tuple[tuple[Place, Interval], ...]
@@ -174,7 +176,7 @@ class Bars(Chart):
 class Lines(Chart):
     """A chart of values joined by lines, with error bars.
 
-    log_x, log_y: the axis is logarithmic.  powers: the x values are exponents of ten.
+    log_x, log_y: True if the axis is logarithmic.  powers: True if the x values are exponents of ten.
     """
 
     log_x: bool = False

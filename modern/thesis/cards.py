@@ -116,7 +116,7 @@ def _canonical(hull: CardHull, oriented: bool) -> tuple[object, ...]:
 
 
 def scaled(equation: Point, oriented: bool) -> Point:
-    """Divide an equation by its first nonzero coefficient, or if ``oriented`` by that coefficient's absolute value."""
+    """Divide an equation by its first nonzero coefficient or, if ``oriented``, by the coefficient's absolute value."""
     lead = next((c for c in equation if c), Fraction(1))
     return tuple(c / (abs(lead) if oriented else lead) for c in equation)
 

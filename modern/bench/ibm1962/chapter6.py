@@ -28,7 +28,7 @@ SAME, DIFFERENT = "same", "different"
 
 @dataclass(frozen=True, slots=True)
 class CardVerdict:
-    """The verdict on one punched card.  ``card`` is its number among the cards of a run, from 1."""
+    """The verdict on one punched card.  ``card`` is the number of the card in the output of its run, from 1."""
 
     example: int
     program: int

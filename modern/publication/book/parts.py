@@ -52,7 +52,7 @@ def fitted(svg: str) -> str:
 
 
 def listings() -> Iterator[str]:
-    """Yield the listings of the programs with the commentary next to the cards, each followed by its textual notes.
+    """Yield each listing, with the commentary next to the cards, and then the textual notes on this listing.
 
     For a variant of a program, such as program1_examples, only the blocks in which a card differs from that program are
     shown.

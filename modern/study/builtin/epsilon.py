@@ -280,8 +280,8 @@ def _wrong_outside(plan: Plan, rows: _Rows, store: Store, below: bool) -> tuple[
     """Return the number of sets with a wrong hull at an e that is too small or too large, and the number of all sets.
 
     If ``below`` is true, only values of e that are too small are counted, otherwise only values that are too large.  An
-    e is too small (too large) if it is below (above) every e with which no set of the cell fails.  A cell counts only
-    if such an e without failures exists.
+    e is too small if it is below every e with which no set of the cell fails, and too large if it is above all of them.
+    A cell counts only if there is an e with which no set of the cell fails.
     """
     wrong = of = 0
     for number, cell in enumerate(plan.cells):
