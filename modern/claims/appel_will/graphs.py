@@ -1,7 +1,7 @@
 """Checks of Appel and Will about the edges and faces of a hull: its graph, its outline, loops, and properties."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import combinations
+from itertools import combinations, permutations
 
 from modern.claims.appel_will.convexity import CUBE
 from modern.claims.evidence import Check, claim, searched
@@ -9,7 +9,7 @@ from modern.claims.hulls import exact_hull
 from modern.claims.sampled_sets import CASES, SETS, Point, is_closed_curve, plane_value, sampled_sets
 from modern.exact_hull import ExactHull
 from modern.geometry.mesh import sides
-from modern.geometry.vectors import cross, dot, minus
+from modern.geometry.vectors import area_vector, cross, dot, minus
 from modern.papers.appel_will.results import found_solid
 
 Graph = Mapping[int, frozenset[int]]
@@ -63,6 +63,25 @@ def _connected(graph: Graph, without: frozenset[int]) -> bool:
     return not remaining
 
 
+@claim("appel-will.96", "appel-will.124", "kovalevsky-schulz.43", "kovalevsky-schulz.158", full=400)
+def planar_graph(cases: int = CASES) -> Check:
+    checks = []
+    for hull in (sampled.judge for sampled in sampled_sets(3, cases)):
+        rings = [f.polygon for f in hull.facets]
+        checks += [len({*ring}) == len(ring) > 2 for ring in rings]
+        directed = [side for ring in rings for side in sides(ring)]
+        checks.append(len({*directed}) == len(directed) and {*directed} == {(b, a) for a, b in directed})
+        for vertex in hull.vertices:
+            # The edges opposite to a vertex, one in each face, form one ring around it.
+            at = [(ring, ring.index(vertex)) for ring in rings if vertex in ring]
+            checks.append(is_closed_curve([(ring[k - 1], ring[(k + 1) % len(ring)]) for ring, k in at]))
+        euler = len(hull.vertices) - len(hull.edges()) + len(hull.facets)
+        checks += [euler == 2, _connected(_graph(hull), frozenset())]
+    message = f"{len(checks)} conditions hold: the edges of a face form a ring, the graph is connected, the faces at "
+    message += "each vertex form a ring, and V - E + F = 2"
+    return searched(SETS[3], cases, checks, message)
+
+
 @claim("appel-will.158", full=200)
 def coplanar_loops(cases: int = CASES) -> Check:
     checks = []
@@ -76,10 +95,10 @@ def coplanar_loops(cases: int = CASES) -> Check:
 
 @claim("appel-will.32", full=400)
 def outline(cases: int = CASES) -> Check:
-    # The normals of the faces have components of at most 200, so that no face is parallel to this direction.
-    eye = (1, 10**3, 10**6)
-    outcomes = [is_closed_curve(_on_outline(s.points, s.judge, eye)) for s in sampled_sets(3, cases)]
-    message = f"seen in the direction {eye}, the edges that produce the outline form one closed curve"
+    # The normals of the faces have components of at most 200, so that no face is parallel to one of these directions.
+    eyes: list[Point] = [*permutations((1, 10**3, 10**6))]  # type: ignore[list-item]
+    outcomes = [is_closed_curve(_on_outline(s.points, s.judge, eye)) for s in sampled_sets(3, cases) for eye in eyes]
+    message = f"seen in {len(eyes)} directions, the edges that produce the outline of a hull form one closed curve"
     check = searched(SETS[3], cases, outcomes, message)
     edges = _on_outline(CUBE, exact_hull(CUBE), (0, 0, 1))  # type: ignore[arg-type]
     case = f"a cube seen along an edge: {len(edges)} edges produce the outline and form no single closed curve"
@@ -101,10 +120,11 @@ def _on_outline(points: Sequence[Point], judge: ExactHull, eye: Point) -> list[t
 @claim("appel-will.28", number="2", full=400)
 @claim("appel-will.29", "appel-will.66", number="3", full=400)
 @claim("appel-will.30", "nakamae-nishita.63", number="4", full=400)
-def polyhedron_property(number: str, cases: int = 2 * CASES) -> Check:
+@claim("appel-will.9", number="4", dimension=2, full=400)
+def polyhedron_property(number: str, dimension: int = 3, cases: int = 2 * CASES) -> Check:
     outcomes_of, meaning = _PROPERTIES[number]
-    checks = [right for s in sampled_sets(3, cases) for right in outcomes_of(s.points, s.judge)]
-    return searched(SETS[3], cases, checks, f"in {cases} hulls, {meaning}")
+    checks = [right for s in sampled_sets(dimension, cases) for right in outcomes_of(s.points, s.judge)]
+    return searched(SETS[dimension], cases, checks, f"in {cases} hulls, {meaning}")
 
 
 def _cones(points: Sequence[Point], judge: ExactHull) -> Iterator[bool]:
@@ -123,16 +143,16 @@ def _dihedral(points: Sequence[Point], judge: ExactHull) -> Iterator[bool]:
 
 
 def _faces(points: Sequence[Point], judge: ExactHull) -> Iterator[bool]:
-    for facet in judge.facets:
-        ring = [points[k] for k in facet.polygon]
+    for polygon in [f.polygon for f in judge.facets] if judge.dimension == 3 else [judge.polygon]:
+        ring = [points[k] for k in polygon]
         for p, q in sides(ring):
             # All other corners are to the left of each side.
             normals = [cross(minus(q, p), minus(r, p)) for r in ring if r not in (p, q)]
-            yield min(dot(normal, facet.plane[:3]) for normal in normals) > 0
+            yield min(dot(normal, area_vector(points, polygon)) for normal in normals) > 0
 
 
 _PROPERTIES = {
     "2": (_cones, "the planes of the faces at a vertex meet only in it, and all points are on their inner sides"),
     "3": (_dihedral, "each edge is on exactly two faces, whose angle inside the hull is less than 180 degrees"),
-    "4": (_faces, "the line of each side of a face has all other corners of the face on one side"),
+    "4": (_faces, "the line of each side of a polygon has all other corners on one side"),
 }

@@ -2,8 +2,6 @@
 
 from modern.claims.algebra import (
     IMPOSSIBLE,
-    Point,
-    Polynomial,
     Proof,
     Step,
     bracket,
@@ -13,6 +11,7 @@ from modern.claims.algebra import (
     minus,
     not_negative,
     point,
+    polynomial,
     positive,
     proves,
     term,
@@ -45,19 +44,16 @@ def triangle_area() -> Proof:
     q = tuple(a + b for a, b in zip(p, u, strict=True))
     # The third corner: p plus a multiple of u, plus another multiple of u turned left by 90 degrees.
     r = (p[0] + along * u[0] - height * u[1], p[1] + along * u[1] + height * u[0])
-
-    def determinant(a: Point, b: Point, c: Point) -> Polynomial:
-        # Each row of the determinant has the coordinates x and y of a point, and 1.
-        return a[0] * (b[1] - c[1]) - a[1] * (b[0] - c[0]) + (b[0] * c[1] - b[1] * c[0])
-
+    # Each row of the determinant has the coordinates x and y of a point, and 1.
+    rows = [(*corner, polynomial(1)) for corner in (p, q, r)]
     return Proof.of(
         "half of the determinant is the area of the triangle; it is positive if the corners run counterclockwise, "
         "negative if they run clockwise, and 0 if they are collinear",
         "Let the vector u be the first side. The third corner is the first corner plus a multiple of u plus h times "
         "the vector u turned left by 90 degrees. The determinant equals h times the square of the length of u. This "
         "product is the base times the signed height, because the turned vector is as long as u.",
-        Step("the determinant is base times height", {}, zero(determinant(p, q, r) - height * dot(u, u))),
-        Step("the determinant is 0 if the first two corners coincide", {}, zero(determinant(p, p, r))),
+        Step("the determinant is base times height", {}, zero(dot(rows[0], cross(*rows[1:])) - height * dot(u, u))),
+        Step("the determinant is 0 if the first two corners coincide", {}, zero(dot(rows[0], cross(rows[0], rows[2])))),
     )
 
 
@@ -129,6 +125,19 @@ def fewer_pairs() -> Proof:
         "The number of triples of n points is larger than that of pairs by n (n - 1) (n - 5) / 6. This is positive for "
         "n = 6 + m if m is not negative.",
         Step("the difference is positive", {"m": not_negative(m)}, positive(difference), terms),
+    )
+
+
+def fewer_wasted_tests() -> Proof:
+    u, m = variables("u m")
+    vertices, n = u + 2, m + 4
+    difference = (3 * vertices - 6) * (n - 2) - 3 * (2 * vertices - 4)
+    return Proof.of(
+        "if N > 4 and no plane of the hull has four points, a smaller part of the pairs than of the triples is wasted",
+        "By Euler's formula, a hull with V vertices and only triangles has E = 3 V - 6 edges and F = 2 V - 4 faces. "
+        "N points have (N - 2) / 3 times as many triples as pairs. E of the pairs and F of the triples are not wasted. "
+        "So the wasted part of the pairs is smaller if E (N - 2) is greater than 3 F, as it is for N > 4.",
+        Step("E (N - 2) > 3 F", {"u": positive(u), "m": positive(m)}, positive(difference), (term("u m"),) * 3),
     )
 
 

@@ -3,10 +3,11 @@
 import math
 from collections import Counter
 from collections.abc import Collection, Sequence
+from fractions import Fraction
 from itertools import combinations, pairwise, product
 
 from modern.claims.appel_will.convexity import CUBE, RINGS, Flat
-from modern.claims.appel_will.proofs import least_surface
+from modern.claims.appel_will.proofs import fewer_wasted_tests, least_surface
 from modern.claims.evidence import Check, claim, exhibited, refuted, search, slip
 from modern.claims.hulls import exact_hull
 from modern.claims.invariants import corrected_print, is_closed_loop, is_sphere, numbers_in
@@ -147,6 +148,15 @@ def surface_of_star() -> Check:
     return least_surface().check().unless(surface < around, case)
 
 
+@claim("appel-will.161")
+def wasted_tests() -> Check:
+    hull = exact_hull([(0, 0, 0), (2, 0, 0), (3, 2, 0), (1, 3, 0), (-1, 2, 0), (1, 1, 1)])
+    triples = [any({*triple} <= {*f.polygon} for f in hull.facets) for triple in combinations(range(6), 3)]
+    parts = Fraction(15 - len(hull.edges()), 15), Fraction(triples.count(False), len(triples))
+    case = f"a pyramid on a pentagon, for which {parts[0]} of the pairs and {parts[1]} of the triples are wasted"
+    return fewer_wasted_tests().check().unless(parts[0] > parts[1], case)
+
+
 @claim("appel-will.152")
 def preprocessing_saves() -> Check:
     solid, counts, stars = fig_4(), [], [0]
@@ -189,8 +199,7 @@ def points_on_three_surfaces() -> Check:
 def hulls_of_surfaces() -> Check:
     solid = pitted()
     vertices, apex = exact_hull(solid.points).vertices, len(TETRAHEDRON)
-    surfaces = [surface for surface in solid.surfaces if apex in surface]
-    own = all(s.index(apex) in exact_hull([solid.points[k] for k in s]).vertices for s in surfaces)
+    own = all(s.index(apex) in exact_hull([solid.points[k] for k in s]).vertices for s in solid.surfaces if apex in s)
     message = "the apex of a pit is a vertex of the hulls of the pit's surfaces, but not of the hull of the object"
     check = exhibited(own and apex not in vertices, message)
     case = "the proved relation that a vertex of the object's hull is a vertex of the hull of each of its surfaces"
@@ -203,10 +212,9 @@ def vertex_without_supporting_surface() -> Check:
     planes = {_plane_of(solid.points, surface) for surface in solid.surfaces}
     values = [[plane_value(plane, point) for point in solid.points] for plane in planes]
     supporting = sum(max(row) <= 0 or min(row) >= 0 for row in values)
-    count = len(solid.surfaces)
-    passed = supporting == 0 and exact_hull(solid.points).vertices == (0, 1, 2, 3) and len(planes) == count == 12
-    message = f"the hull of an object with {count} surfaces, none of which is on a supporting plane, is a tetrahedron"
-    return exhibited(passed, message)
+    distinct = len(planes) == len(solid.surfaces)
+    message = f"the hull of an object with {len(planes)} surfaces, none on a supporting plane, is a tetrahedron"
+    return exhibited(distinct and supporting == 0 and exact_hull(solid.points).vertices == (0, 1, 2, 3), message)
 
 
 def _plane_of(points: Sequence[Point], surface: Sequence[int]) -> Plane:
@@ -250,6 +258,5 @@ def product_with_repeated_vector() -> Check:
     rows = [numbers_in(line.partition("=")[2]) for line in corrected_print("appel-will")["fig18"][::2]]
     with_i = [triple_product((a, b, c), (d, e, f), (a, b, c)) for a, d, _, b, e, _, c, f, _, _ in rows]
     with_l = [triple_product((a, b, c), (d, e, f), (g, h, i)) for a, d, g, b, e, h, c, f, i, _ in rows]
-    shown_i, shown_l = (", ".join(map(str, values)) for values in (with_i, with_l))
-    message = f"the determinants of Fig. 18 are {shown_l} with the index l, but {shown_i} with the index i as displayed"
+    message = f"the determinants of Fig. 18 are {with_l} with the index l, but {with_i} with the index i as displayed"
     return slip(any(with_i), with_l == [row[-1] for row in rows], "l", message)
