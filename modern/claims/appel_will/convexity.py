@@ -67,10 +67,9 @@ def method_against_judge(cases: int = CASES, method: Method = CORRECTED) -> Chec
         for loop, ring in zip(hull.table.loops, hull.surfaces, strict=True):
             ends = [hull.edges[abs(entry) - 1][:: 1 if entry > 0 else -1] for entry in loop.entries]
             checks.append(all(ends[k - 1][1] == point == ends[k][0] for k, point in enumerate(ring)))
-    message = (
-        f"in {cases} sets, the loops run around the faces of the hull, which are convex, and use each edge twice; "
-    )
-    message += "the map has the common points of neighbouring lines: LC1 if a line's entry is positive, LC2 if negative"
+    message = f"for {cases} sets of points, the loops run around the faces of the exact hull, which are convex, and "
+    message += "use each edge twice; the map lists the points that neighbouring lines of a loop have in common: the "
+    message += "end LC1 of a line with a positive entry in the loop, and the end LC2 of a line with a negative entry"
     return searched(SETS[3], cases, checks, message)
 
 
