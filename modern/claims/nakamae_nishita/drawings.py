@@ -1,10 +1,12 @@
 """Checks of Nakamae and Nishita on whole drawings: scenes of boxes, compared with rays from points towards the eye."""
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
-from itertools import combinations, product
+from itertools import combinations, pairwise, product
+from operator import lt, ne
 from random import Random
 
 from modern.claims.evidence import Check, Generator, claim, search, searched
@@ -14,17 +16,18 @@ from modern.claims.sampled_sets import CASES, SETS, Point, sampled_sets
 from modern.drawing.visible import CONTOUR, INNER
 from modern.exact_hull import ExactHull
 from modern.geometry.mesh import sides
-from modern.geometry.vectors import dot, plus
+from modern.geometry.vectors import dot, minus, plus
 from modern.papers.nakamae_nishita.crossings import ENCLOSED
 from modern.papers.nakamae_nishita.hidden import Drawing, Piece, draw
 from modern.papers.nakamae_nishita.nearness import BY_FACE
-from modern.papers.nakamae_nishita.polyhedron import Polyhedron, checked
-from modern.papers.nakamae_nishita.projection import parallel
+from modern.papers.nakamae_nishita.polyhedron import Figure, Polyhedron, checked
+from modern.papers.nakamae_nishita.projection import parallel, perspective
 from modern.papers.nakamae_nishita.shapes import cuboid, moved, placed
 
 # The lowest and the highest corner of a box.
 Box = tuple[tuple[int, int, int], tuple[int, int, int]]
-EYE = (101, -203, 157)
+EYE = (41, -83, 67)
+OBSERVER = perspective(tuple(map(Fraction, EYE)), (Fraction(5), Fraction(5), Fraction(5)))  # type: ignore[arg-type]
 
 
 def _draw_boxes(random: Random) -> tuple[Box, ...]:
@@ -57,7 +60,7 @@ def _is_nested(boxes: tuple[Box, ...]) -> bool:
         return False
     drawing = drawn(boxes)
     is_enclosed = [(relation.by, relation.nearer) for relation in drawing.relations] == [(BY_FACE, -1)]
-    return is_enclosed and any(p.last - p.first < 1 for p in drawing.pieces)
+    return is_enclosed and any(p.last - p.first < 1 for p in drawing.pieces if p.end < 8)
 
 
 NESTED: Generator[tuple[Box, ...]] = Generator(
@@ -75,11 +78,8 @@ def polyhedra(boxes: tuple[Box, ...], thing: str = "") -> list[Polyhedron]:
 
 
 def _inside(point: list[Fraction], box: Box) -> tuple[Fraction, Fraction]:
-    """Return where the line from a point towards the eye enters and leaves a box, in multiples of the vector ``EYE``.
-
-    The line misses the box if the first number is not smaller than the second.
-    """
-    ranges = [sorted(((a - p) / s, (b - p) / s)) for p, a, b, s in zip(point, *box, EYE, strict=True)]
+    """Return where the line from a point to the eye enters and leaves a box, in this order if it meets the box."""
+    ranges = [sorted(((a - p) / (e - p), (b - p) / (e - p))) for p, a, b, e in zip(point, *box, EYE, strict=True)]
     return max(first for first, _ in ranges), min(last for _, last in ranges)
 
 
@@ -91,8 +91,9 @@ def _behind(point: list[Fraction], box: Box) -> bool:
 
 def point_of(drawing: Drawing, piece: Piece, share: Fraction) -> list[Fraction]:
     """Return the point in space that is at the fraction ``share`` of the edge to which a piece belongs."""
-    vertices = drawing.solids[piece.solid].polyhedron.vertices
-    return [a + share * (b - a) for a, b in zip(vertices[piece.start], vertices[piece.end], strict=True)]
+    polyhedron = drawing.solids[piece.solid].polyhedron
+    points = [*polyhedron.vertices, *(corner for figure in polyhedron.figures for corner in figure.corners)]
+    return [a + share * (b - a) for a, b in zip(points[piece.start], points[piece.end], strict=True)]
 
 
 def samples(drawing: Drawing) -> Iterator[tuple[Piece, list[Fraction]]]:
@@ -103,26 +104,32 @@ def samples(drawing: Drawing) -> Iterator[tuple[Piece, list[Fraction]]]:
 
 @cache
 def drawn(boxes: tuple[Box, ...]) -> Drawing:
-    return draw(polyhedra(boxes), parallel(EYE), hidden=True)
+    """Draw boxes, each face of which has a figure: the outline of the face, reduced to half its size."""
+    solids = []
+    for box in polyhedra(boxes):
+        rings = [[box.vertices[k] for k in face] for face in box.faces]
+        figures = [
+            [tuple((3 * x + y) / 4 for x, y in zip(p, r[k - 2], strict=True)) for k, p in enumerate(r)] for r in rings
+        ]
+        solids.append(replace(box, figures=(*map(Figure, range(6), figures),)))  # type: ignore[arg-type]
+    return draw(solids, OBSERVER, hidden=True)
 
 
 @cache
 def _agrees(boxes: tuple[Box, ...]) -> bool:
-    return all(piece.visible != any(_behind(at, box) for box in boxes) for piece, at in samples(drawn(boxes)))
+    right = [piece.visible != any(_behind(at, box) for box in boxes) for piece, at in samples(drawn(boxes))]
+    # Each box has 12 edges, and 12 sides of figures on its three front faces.
+    return all(right) and sum(piece.last - piece.first for piece in drawn(boxes).pieces) == 24 * len(boxes)
 
 
-def pieces_against_rays(cases: int = 3, scenes: Generator[tuple[Box, ...]] = SCENES) -> Check:
-    """Check that a piece of an edge is visible if and only if no box hides its midpoint and points next to its ends.
-
-    All edges of the boxes are divided into pieces. Pieces of edges between two back faces are never visible.
-    """
-    message = "of three points of each piece of an edge, boxes hide none if the method calls the piece visible, and "
-    message += "all three otherwise"
-    return search(scenes, _agrees, cases, message)
+@claim("nakamae-nishita.7", full=600)
+def pieces_against_rays(cases: int = 2, scenes: Generator[tuple[Box, ...]] = SCENES) -> Check:
+    message = "edges, and figures on front faces, are divided into pieces; of three points of each, boxes hide none "
+    return search(scenes, _agrees, cases, f"{message}if the method calls the piece visible, and all three otherwise")
 
 
-# Directions parallel to no face of a sampled hull: the components of the faces' normals are integers up to 200.
-DIRECTIONS: tuple[Point, ...] = ((1, 401, 401**2), (-(401**2), 1, 401), (401, -(401**2), -1))
+# Eyes in no plane of a face of a sampled hull. If the last number is 0, the eye is at infinity.
+EYES = ((1, 401, 401**2, 0), (-(401**2), 1, 401, 0), (7, 9**4, 9**8, 1), (-(9**8), 7, -(9**4), 1))
 
 
 def polyhedron_of(points: Sequence[Point], judge: ExactHull) -> Polyhedron:
@@ -137,21 +144,23 @@ def edges_that_can_be_visible(cases: int = CASES) -> Check:
     for sampled in sampled_sets(3, cases):
         hull = sampled.judge
         points = [sampled.points[k] for k in hull.vertices]
-        for way in DIRECTIONS:
-            (solid,) = draw([polyhedron_of(sampled.points, hull)], parallel(way)).solids
+        for x, y, z, is_near in EYES:
+            observer = perspective((x, y, z), (0, 0, 0)) if is_near else parallel((x, y, z))  # type: ignore[arg-type]
+            (solid,) = draw([polyhedron_of(sampled.points, hull)], observer).solids
             for edge in solid.edges:
                 # A hull hides a midpoint if the points next to it, in the direction of the eye, are inside the hull.
                 doubled = plus(points[edge.start], points[edge.end])
+                way = minus((2 * x, 2 * y, 2 * z), doubled) if is_near else (x, y, z)
                 values = ((dot(f.plane[:3], doubled) + 2 * f.plane[3], dot(f.plane[:3], way)) for f in hull.facets)
                 is_hidden = all(at_midpoint < 0 or along < 0 for at_midpoint, along in values)
                 outcomes.append(is_hidden != (edge.kind in (INNER, CONTOUR)))
                 hidden += is_hidden
-    message = f"seen from {len(DIRECTIONS)} directions, hulls hide {hidden} of their own {len(outcomes)} edges: all "
+    message = f"seen from two points and two directions, hulls hide {hidden} of their own {len(outcomes)} edges: all "
     return searched(SETS[3], cases, [*outcomes, hidden], f"{message}except the inner and the contour edges")
 
 
 @claim("nakamae-nishita.15", full=600)
-def unrelated_polyhedra(cases: int = 3) -> Check:
+def unrelated_polyhedra(cases: int = 2) -> Check:
     def hide_nothing(boxes: tuple[Box, ...]) -> bool:
         compared = {frozenset((relation.v, relation.w)) for relation in drawn(boxes).relations}
         for v, w in combinations(range(len(boxes)), 2):
@@ -165,9 +174,10 @@ def unrelated_polyhedra(cases: int = 3) -> Check:
 
 
 def _image(box: Box) -> tuple[tuple[int, int], ...]:
-    """Return the images of the corners of a box, by two linear functions that are 0 in the direction of the eye."""
-    a, b, c = EYE
-    return tuple((b * x - a * y, c * y - b * z) for x, y, z in product(*zip(*box, strict=True)))
+    """Return the images of the corners of a box in the plane z = 0, enlarged so that they have integer coordinates."""
+    (a, b, c), corners = EYE, product(*zip(*box, strict=True))
+    scale = math.lcm(*range(c - 15, c + 1))
+    return tuple(((c * x - a * z) * scale // (c - z), (c * y - b * z) * scale // (c - z)) for x, y, z in corners)
 
 
 def orders(*pair: Box) -> Iterator[int]:
@@ -179,36 +189,46 @@ def orders(*pair: Box) -> Iterator[int]:
                 yield (first_v >= last_w) - (first_w >= last_v)
 
 
-# The sizes of a box, and the place where it is divided along x.
-DIVISIONS: Generator[tuple[int, ...]] = Generator(
-    "boxes with sides from 2 to 6, divided along x",
+# Two boxes: their sizes, and the place of the second box along y and z. It begins where the first box ends along x.
+PARTS: Generator[tuple[int, ...]] = Generator(
+    "two boxes with sides from 1 to 4 that have a part of a face in common",
     39,
-    lambda r: (*(r.randint(2, 6) for _ in range(3)), r.randint(1, 5)),
-    lambda d: len(d) == 4 and min(d) > 0 and d[3] < d[0],
+    lambda r: (*(r.randint(1, 4) for _ in range(6)), r.choice((0, 0, 1, -1)), r.choice((0, 0, 1, -1))),
+    lambda p: len(p) == len("xyzuvwbc") and min(p[:6]) > 0 and -p[4] < p[6] < p[1] and -p[5] < p[7] < p[2],
 )
 
 
 @claim("nakamae-nishita.39", "nakamae-nishita.40", full=300)
-def divided_box(cases: int = 2) -> Check:
-    def restores(division: tuple[int, ...]) -> bool:
-        x, y, z, cut = division
-        halves: tuple[Box, ...] = (((0, 0, 0), (cut, y, z)), ((cut, 0, 0), (x, y, z)))
-        scenes = (halves, "box"), (halves, ""), ((((0, 0, 0), (x, y, z)),), "")
-        lines = [_visible_lines(draw(polyhedra(boxes, thing), parallel(EYE))) for boxes, thing in scenes]
-        together, apart, whole = (sum(abs(b - a) for line in part for a, b in line) for part in lines)
-        # The points of an edge of the whole box have two coordinates that are 0 or the size of the box.
-        on_box = all(sum(a == b in (0, s) for (a, b), s in zip(e, division, strict=False)) == 2 for e in lines[0])
-        return on_box and together == whole < apart
-
-    message = "if the ghost lines are removed, the visible lines of a divided box are on the edges of the whole box "
-    message += "and as long as its visible lines; with the ghost lines they are longer"
-    return search(DIVISIONS, restores, cases, message)
+def divided_object(cases: int = 4) -> Check:
+    checks, removed = [], 0
+    for x, y, z, u, v, w, b, c in PARTS.cases(cases):
+        boxes: tuple[Box, ...] = ((0, 0, 0), (x, y, z)), ((x, b, c), (x + u, b + v, c + w))
+        with_ghosts, without = (_visible_lines(draw(polyhedra(boxes, thing), OBSERVER)) for thing in ("", "box"))
+        checks.append(without == {line for line in with_ghosts if not _is_in_face(line, boxes)})
+        removed += len(with_ghosts) > len(without)
+    message = f"of the visible lines of {cases} objects of two boxes, exactly those are removed as ghost lines that "
+    message += f"lie in a plane part of the surface; {removed} of the objects have such lines"
+    return searched(PARTS, cases, [*checks, removed], message)
 
 
-def _visible_lines(drawing: Drawing) -> list[list[tuple[Fraction, Fraction]]]:
-    """Return the coordinates of both ends of each visible piece, as one pair for each axis."""
-    ends = ((point_of(drawing, p, p.first), point_of(drawing, p, p.last)) for p in drawing.pieces if p.visible)
-    return [[*zip(start, end, strict=True)] for start, end in ends]
+def _visible_lines(drawing: Drawing) -> set[tuple[Fraction, ...]]:
+    """Return the ends of the visible parts of edges, which are parallel to an axis, divided at integer coordinates."""
+    lines = set()
+    for piece in drawing.pieces:
+        p, q = sorted(point_of(drawing, piece, share) for share in (piece.first, piece.last))
+        axis = next(k for k in range(3) if p[k] < q[k])
+        places = [p[axis], *map(Fraction, range(math.floor(p[axis]) + 1, math.ceil(q[axis]))), q[axis]]
+        ends = [(*p[:axis], place, *p[axis + 1 :]) for place in places]
+        lines |= {(*start, *end) for start, end in pairwise(ends) if piece.visible}
+    return lines
+
+
+def _is_in_face(line: tuple[Fraction, ...], boxes: tuple[Box, ...]) -> bool:
+    """Return True if boxes fill two adjacent ones of the four quadrants around an edge, so that it is inside a face."""
+    ways = product(*((-1, 1) if a == b else (0,) for a, b in zip(line[:3], line[3:], strict=True)))
+    near = [[(a + b) / 2 + Fraction(k, 9) for a, b, k in zip(line[:3], line[3:], way, strict=True)] for way in ways]
+    full = [at for at in near if any(all(map(lt, low, at)) and all(map(lt, at, high)) for low, high in boxes)]
+    return len(full) == 2 and sum(map(ne, *full)) == 1
 
 
 def _draw_view(random: Random) -> tuple[tuple[Point, ...], Point]:

@@ -1,27 +1,14 @@
 """Proofs of Nakamae and Nishita on front faces and overlaps; :mod:`modern.claims.algebra` checks the steps."""
 
-from modern.claims.algebra import (
-    Proof,
-    Step,
-    bracket,
-    cross,
-    dot,
-    minus,
-    point,
-    positive,
-    proves,
-    term,
-    turn,
-    variables,
-    zero,
-)
+from modern.claims import algebra
+from modern.claims.algebra import Proof, Step, bracket, cross, dot, minus, point, positive, proves, term, zero
 
 
 @proves("nakamae-nishita.18")
 def front_face() -> Proof:
     images = u, v, w = tuple(point(name, 2) for name in "uvw")
     turn = bracket(u, v, w)
-    depths = variables("r s t")
+    depths = algebra.variables("r s t")
     # In the coordinates of the eye, a corner is its image (x, y, 1) times its depth.
     central = [(depth * x, depth * y, depth) for (x, y), depth in zip(images, depths, strict=True)]
     parallel = [(*image, depth) for image, depth in zip(images, depths, strict=True)]
@@ -79,7 +66,7 @@ def three_corners() -> Proof:
 @proves("nakamae-nishita.44")
 def product_of_segments() -> Proof:
     p, q, a, b = (point(name, 2) for name in "pqab")
-    product, at_a, at_b = turn(minus(p, q), minus(a, b)), -bracket(p, q, a), -bracket(p, q, b)
+    product, at_a, at_b = algebra.turn(minus(p, q), minus(a, b)), -bracket(p, q, a), -bracket(p, q, b)
     enters, leaves = ({"a": positive(sign * at_a), "b": positive(-sign * at_b)} for sign in (-1, 1))
     return Proof.of(
         "the product is negative if the edge enters the contour at the segment, and positive if it leaves it there",
@@ -93,7 +80,7 @@ def product_of_segments() -> Proof:
 @proves("nakamae-nishita.66")
 def overlap_by_neighbours() -> Proof:
     o, p, q, r = (point(name, 2) for name in "opqr")
-    (t,) = variables("t")
+    (t,) = algebra.variables("t")
     x = tuple((1 - t) * a + t * b for a, b in zip(p, q, strict=True))
     return Proof.of(
         "a segment on the line of a side overlaps the side if and only if the columns of both adjacent sides have a 1 "

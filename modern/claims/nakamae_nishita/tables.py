@@ -3,9 +3,9 @@
 An entry of a table tells on which side of a line of one contour a vertex of the other contour lies.
 """
 
+import math
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from fractions import Fraction
 from functools import cache
 from itertools import combinations, product
 from random import Random
@@ -87,17 +87,18 @@ ROOF: tuple[Point, ...] = ((0, 0, 0), (4, 0, 0), (4, 0, 2), (2, 0, 3), (0, 0, 2)
 
 @claim("nakamae-nishita.12", full=400)
 def convex_contour(cases: int = CASES) -> Check:
-    checks, straight = [], 0
-    for points, judge, (u, v) in (
-        *((sampled.points, sampled.judge, (31, 17)) for sampled in sampled_sets(3, 1 + cases)),
-        (ROOF, exact_hull(ROOF), (0, 0)),
-    ):
-        images = [(x + u * z, y + v * z) for x, y, z in points]
-        values = [dot(face.plane[:3], (-u, -v, 1)) for face in judge.facets]
+    checks, straight, sets = [], 0, [(sampled.points, sampled.judge) for sampled in sampled_sets(3, 1 + cases)]
+    # The eye is at infinity if the last number is 0. The images are in the plane z = 0, enlarged to have integers.
+    eyes = (-31, -17, 1, 0), (9, -4, 12, 1)
+    for (points, judge), (a, b, c, w) in (*product(sets, eyes), ((ROOF, exact_hull(ROOF)), (0, 0, 1, 0))):
+        scale = math.lcm(*(c - w * z for _, _, z in points))
+        enlarged = [(x, y, z, scale // (c - w * z)) for x, y, z in points]
+        images = [((c * x - a * z) * factor, (c * y - b * z) * factor) for x, y, z, factor in enlarged]
+        values = [dot(face.plane[:3], (a, b, c)) + w * face.plane[3] for face in judge.facets]
         # A directed edge of a front face is on the contour if its reverse belongs to no front face.
         front = [face.polygon for face, face_value in zip(judge.facets, values, strict=True) if face_value > 0]
         edges = {edge for ring in front for edge in sides(ring)}
-        after = {b: a for a, b in edges if (b, a) not in edges}
+        after = {q: p for p, q in edges if (q, p) not in edges}
         ring = [min(after)]
         while len(ring) < len(after) and after[ring[-1]] != ring[0]:
             ring.append(after[ring[-1]])
@@ -106,7 +107,7 @@ def convex_contour(cases: int = CASES) -> Check:
         checks.append(len(ring) == len(after) and {*turns} <= {-1, 0} and (0 in values or 0 not in turns))
         checks.append(all(side(p, q, image) <= 0 for p, q in sides(contour) for image in images))
         straight += turns.count(0)
-    message = f"the contours of {len(checks) // 2} hulls are convex and clockwise, also if a face is seen edge-on"
+    message = f"{len(checks) // 2} contours of hulls are convex and clockwise, also if a face is seen edge-on"
     return searched(SETS[3], 1 + cases, [*checks, straight], message)
 
 
@@ -145,19 +146,17 @@ def formula_3(cases: int = CASES) -> Check:
     meetings = [pair for v, w in pairs(cases) for pair in numbers_of_meetings(v, w)]
     numbers = Counter(d for d, _ in meetings)
     outcomes = [d == expected for d, expected in meetings] + [{-4, -2, -1, 0} == {*numbers}]
-    shown = ", ".join(f"{d} for {number}" for d, number in numbers.items())
-    message = f"d has the stated value for {len(meetings)} pairs of segments: {shown}"
-    return searched(POLYGONS, 2 * cases, outcomes, message)
+    message = f"d has the stated value for {len(meetings)} pairs of segments: "
+    return searched(POLYGONS, 2 * cases, outcomes, message + ", ".join(f"{d} for {n}" for d, n in numbers.items()))
 
 
 @claim("nakamae-nishita.29", "nakamae-nishita.33", full=25)
 def formula_3_in_line(cases: int = CASES) -> Check:
     d = tables_of(SQUARE, ((2, 2), (2, 4), (6, 4), (6, 2))).crossing_number(1, 1)
-    check = formula_3(cases)
-    return check.unless(d == 0, "the sides from (0, 4) to (4, 4) and (2, 4) to (6, 4), which overlap although d is 0")
+    return formula_3(cases).unless(d == 0, "sides (0, 4) to (4, 4) and (2, 4) to (6, 4), which overlap though d is 0")
 
 
-@claim("nakamae-nishita.37", conclusion="the value of formula (5) is positive if the vertex is nearer than the face")
+@claim("nakamae-nishita.37", conclusion="formula (5) is positive if the vertex is nearer, negative if the face is")
 @claim("nakamae-nishita.60", conclusion="formula (5) has the same sign, that of the nearer one, for all vertices of V'")
 def formula_5(conclusion: str) -> Check:
     x, p, q, r = (algebra.point(name, 3) for name in "xpqr")
@@ -167,10 +166,7 @@ def formula_5(conclusion: str) -> Check:
     minors = [algebra.dot(a, algebra.cross(b, c)) for a, b, c in ((p, q, r), (x, q, r), (x, p, r), (x, p, q))]
     printed = minors[0] - minors[1] + minors[2] - minors[3]
     outward = algebra.cross(algebra.minus(r, p), algebra.minus(q, p))
-    steps = (
-        algebra.Step("the program computes (5)", {}, algebra.zero(printed - computed)),
-        algebra.Step("it is (x - p) n", {}, algebra.zero(printed - algebra.dot(algebra.minus(x, p), outward))),
-    )
+    differences = printed - computed, printed - algebra.dot(algebra.minus(x, p), outward)
     argument = (
         "The value of formula (5) for a vertex x and corners p, q and r of a face is (x - p) n with n = (r - p) x (q - "
         "p), which points outward because the corners run clockwise as seen from outside. So the value is positive in "
@@ -178,10 +174,9 @@ def formula_5(conclusion: str) -> Check:
         "If a vertex of V' were in front of V and another one behind it, the segment between them would meet V, "
         "because V is convex and its contour encloses that of V'. So one vertex decides for all of them."
     )
-    # The corners of this face run clockwise as seen from above.
-    face = plane_through((0, 0, 0, 1), (0, 4, 0, 1), (4, 4, 0, 1))
+    face = plane_through((0, 0, 0, 1), (0, 4, 0, 1), (4, 4, 0, 1))  # clockwise as seen from above
     above, on, below = (sign(height(face, (1, 2, z, 1))) for z in (1, 0, -1))
-    check = proved(argument, [step.is_valid() for step in steps], conclusion)
+    check = proved(argument, [d == 0 * unit for d in differences], conclusion)
     return check.unless(above > on == 0 > below, "a vertex in the face, for which formula (5) is 0")
 
 
@@ -192,8 +187,7 @@ def numbers_of_meetings(v: tuple[Place, ...], w: tuple[Place, ...]) -> list[tupl
     for (i, (a, b)), (j, (c, d)) in product(enumerate(sides(v)), enumerate(sides(w))):
         # Section 3.2: -4 for a crossing, -2 for a vertex on a segment, -1 for a common vertex, else 0.
         touching = [p for p in {a, b} if between(c, d, p)] + [p for p in {c, d} if between(a, b, p)]
-        in_line = side(a, b, c) == side(a, b, d) == 0
-        same = {a, b} & {c, d}
+        in_line, same = side(a, b, c) == side(a, b, d) == 0, {a, b} & {c, d}
         expected = 0 if in_line else -1 if same else -2 if touching else -4 if crosses(a, b, c, d) else 0
         meetings.append((d_of(i, j), expected))
     return meetings
@@ -219,7 +213,7 @@ def crosses(a: Place, b: Place, c: Place, d: Place) -> bool:
 @claim("nakamae-nishita.26", number="4", full=25)
 @claim("nakamae-nishita.27", number="LP", full=25)
 def table_properties(number: str, cases: int = CASES) -> Check:
-    checks, premises, touching = [], 0, False
+    checks, premises, touching = [], 0, 0
     for v, w in pairs(cases):
         of_both = tables_of(v, w)
         met = [[of_both.crossing_number(i, j) for j in range(len(w))] for i in range(len(v))]
@@ -230,57 +224,48 @@ def table_properties(number: str, cases: int = CASES) -> Check:
             # The converse is true for properties 2 and 4.
             checks += [right == premise or (right and property_number not in "24") for premise, right in found]
             premises += sum(premise for premise, _ in found)
-            touching |= touches
-    units = {"3": "segments without -1", "4": "vertices", "LP": "cases of the four properties"}
-    unit = units.get(number, "pairs of contours")
+            touching += touches
+    unit = {"3": "segments without -1", "4": "vertices", "LP": "cases"}.get(number, "pairs of contours")
     message = f"the premise is satisfied for {premises} of {len(checks)} {unit}; in all of these, the conclusion holds"
-    check = searched(POLYGONS, 2 * cases, checks, message)
-    return check.unless(touching, "a side without -1 that touches the other polygon, so that d is -2 or -1")
+    message += f"; {touching} segments without -1 touch the other contour (d is -2 or -1)" if touching else ""
+    return searched(POLYGONS, 2 * cases, checks, message)
 
 
 def _property(
     number: str, v: tuple[Place, ...], w: tuple[Place, ...], of_lines: Rows, met: Rows
-) -> tuple[list[tuple[bool, bool]], bool]:
-    """Return the premise and the conclusion of a property for each case, and True if a line without -1 touches w.
+) -> tuple[list[tuple[bool, bool]], int]:
+    """Return the premise and the conclusion of a property for each case, and the number of lines that only touch w.
 
-    Property 3 says that a line of v does not cross w if no vertex of w has the sign -1. In this case the line may still
-    touch w. ``of_lines`` has, for each line of v, the signs of the vertices of w. ``met`` has the values of d, formula
-    (3), for each line of v and each line of w.
+    For each line of v, ``of_lines`` has the signs of the vertices of w, and ``met`` has d, formula (3), for lines of w.
     """
     if number == "1":
-        return [(any(1 not in line for line in of_lines), not overlap(v, w))], False
+        return [(any(1 not in line for line in of_lines), not overlap(v, w))], 0
     if number == "2":
-        return [(not any(-1 in line for line in of_lines), all(inside(p, v) for p in w))], False
+        return [(not any(-1 in line for line in of_lines), all(inside(p, v) for p in w))], 0
     if number == "4":
-        return [(-1 not in at, inside(p, v)) for at, p in zip(zip(*of_lines, strict=True), w, strict=True)], False
+        return [(-1 not in at, inside(p, v)) for at, p in zip(zip(*of_lines, strict=True), w, strict=True)], 0
     clear = [i for i, line in enumerate(of_lines) if -1 not in line]
     crossed = [any(crosses(*side_of_v, *side_of_w) for side_of_w in sides(w)) for side_of_v in sides(v)]
-    return [(True, not crossed[i]) for i in clear], any(any(met[i]) for i in clear)
+    return [(True, not crossed[i]) for i in clear], sum(any(met[i]) for i in clear)
 
 
 @claim("nakamae-nishita.41", full=25)
 def intersection_counts(cases: int = CASES) -> Check:
-    counts, along, over_two = set(), 0, 0
+    counts, along, most = Counter[int](), 0, 0
     for v in polygons(cases):
         for a, b in combinations([(x, y) for x in (-3, 0, 2, 4) for y in (-2, 0, 3, 4)], 2):
-            places, by_3 = set(), 0
-            for line, (p, q) in zip(lines_of(v), sides(v), strict=True):
-                at_a, at_b = value(line, (*a, 1)), value(line, (*b, 1))
-                if at_a == at_b == 0:
-                    axis = int(p[0] == q[0])
-                    mine, its = sorted((a[axis], b[axis])), sorted((p[axis], q[axis]))
-                    if max(mine[0], its[0]) < min(mine[1], its[1]):
-                        along += 1
-                        break
-                elif sign(at_a) * sign(at_b) <= 0 and side(a, b, p) * side(a, b, q) <= 0 and at_a != at_b:
-                    places.add(Fraction(at_a, at_a - at_b))
-                    by_3 += (sign(at_b) - sign(at_a)) * (side(a, b, q) - side(a, b, p)) != 0
-            else:
-                counts.add(len(places))
-                over_two += by_3 > 2
-    check = searched(POLYGONS, 2 * cases, [counts == {0, 1, 2}], "the segments meet a contour in 0, 1 or 2 points")
-    case = f"{along} segments along a side, and {over_two} segments through corners, which formula (3) counts twice"
-    return check.unless(along and over_two, case)
+            crossed = sum(crosses(a, b, p, q) for p, q in sides(v))
+            # The corners on the segment, and the ends of the segment on the contour: two if it runs along a side.
+            touched = {p for p in v if between(a, b, p)} | {e for e in (a, b) for p, q in sides(v) if between(p, q, e)}
+            along += len(touched) == 2 and any(side(p, q, a) == side(p, q, b) == 0 for p, q in sides(v))
+            by_3 = [side(p, q, a) != side(p, q, b) and side(a, b, p) != side(a, b, q) for p, q in sides(v)]
+            counts[crossed + len(touched)] += 1
+            most = max(most, sum(by_3))
+    message = (
+        f"{counts.total()} segments cross or touch a contour in 0, 1 or 2 points; {along} of them run along a side "
+    )
+    message += f"between two such points; formula (3) counts up to {most} touches, as it finds a corner on two sides"
+    return searched(POLYGONS, 2 * cases, [{*counts} == {0, 1, 2}, along, most > 2], message)
 
 
 @cache
@@ -300,5 +285,5 @@ def segments_within(cases: int = CASES) -> Check:
                 checks += [values_at_w is not None and clipped(values_at_w, 0, 1) != CLEAR] * crossings
                 partly_inside += crossings * (not (inside(a, w) and inside(b, w)))
     message = f"in {len(checks)} crossings of a side of V with a line between corners or inner points of V', a part of "
-    check = searched(POLYGONS, 2 * cases, checks, f"{message}the side is inside V'")
-    return check.unless(partly_inside, f"{partly_inside} crossings in which the side of V is not wholly inside V'")
+    message += f"the side is inside V'; in {partly_inside} of them, another part of the side is not"
+    return searched(POLYGONS, 2 * cases, checks, message)

@@ -23,17 +23,15 @@ from modern.papers.nakamae_nishita.scenes import parse
 
 
 @claim("nakamae-nishita.16", full=600)
-def hidden_contour_edges(cases: int = 3) -> Check:
-    drawing = _two_boxes((1, 3, -1))
-    check = pieces_against_rays(cases)
+def hidden_contour_edges(cases: int = 2) -> Check:
+    drawing, behind = _two_boxes((1, 3, -1)), edges_wholly_behind()
     both = drawing.relations[0].by == BY_CROSSING and _hidden(drawing, INNER) and _hidden(drawing, CONTOUR)
-    behind = edges_wholly_behind()
     case = f"hidden contour edges of the farther box, and by a box partly behind a wall: {behind.message}"
-    return check.unless(both and not behind.holds, case)
+    return pieces_against_rays(cases).unless(both and not behind.holds, case)
 
 
 @claim("nakamae-nishita.49", full=600)
-def order_of_invisibility(cases: int = 3) -> Check:
+def order_of_invisibility(cases: int = 2) -> Check:
     behind, corners = edges_wholly_behind(), indices(1).evidence.violation
     case = f"a box partly behind a wall: {behind.message}; and by {corners}"
     return pieces_against_rays(cases).unless(not behind.holds and corners, case)
@@ -100,10 +98,9 @@ def formula_4() -> Check:
     nearer = algebra.Step("dr < 0 if s < t", signs, algebra.positive(-value_of_4), (algebra.term("s nearer u"),))
     signs = {**signs, "nearer": algebra.positive(s - t)}
     farther = algebra.Step("dr > 0 if s > t", signs, algebra.positive(value_of_4), (algebra.term("s nearer u"),))
-    crossing = _two_boxes((1, 3, 0)).relations[0]
     argument = "Let the points P_1 and P_2 be at s u and t u from the eye P_0. Then formula (4) gives dr = s (s - t) u "
     argument += "u, which is negative if P_1 is nearer, and positive if P_2 is nearer."
-    decided = (crossing.by, crossing.nearer) == (BY_CROSSING, 1)
+    decided = [(relation.by, relation.nearer) for relation in _two_boxes((1, 3, 0)).relations] == [(BY_CROSSING, 1)]
     check = proved(argument, [nearer.is_valid(), farther.is_valid()], "the sign of formula (4) tells the nearer point")
     case = "two boxes that touch: formula (4) is 0, and only a separating plane decides which box is nearer"
     return check.unless(decided and _undecided_if_touching(), case)
@@ -139,8 +136,8 @@ def three_conditions(cases: int = 3) -> Check:
             touching += course == (False,) and any(between(a, b, p) and p not in (a, b) for p in v)
             courses += [course] if len(course) > 1 else []
     outcomes = [{*courses} == {(False, True), (True, False), (False, True, False)}]
-    check = searched(_CONTOURS, cases, outcomes, f"{len(courses)} segments enter a contour, leave it, or do both")
-    return check.unless(touching, f"{touching} segments that only touch the contour at a corner or along a side")
+    message = f"{len(courses)} segments enter a contour, leave it, or do both; {touching} others only touch a contour "
+    return searched(_CONTOURS, cases, outcomes, f"{message}at a corner or along a side")
 
 
 @claim("nakamae-nishita.48")
@@ -160,21 +157,18 @@ def table_by_formula_4() -> Check:
     by_4 = {sign(dot(minus(p, eye), minus(p, end))) for p in contour for end in ends}
     flat = tuple((x, y) for x, y, _ in contour)
     by_1 = [[sign(value(line, (x, y, 1))) for line in lines_of(flat)] for x, y, _ in ends]
-    goes_in = -1 in by_1[0] and -1 not in by_1[1]
     message = "by the sign of formula (4) every element of the table is -1, as if nothing intersected; by the sign of "
     message += "formula (1), the edge enters the contour"
-    return slip(by_4 != {-1}, goes_in, "the tables of section 3.2, by the sign of formula (1)", message)
+    return slip(by_4 != {-1}, -1 in by_1[0] and -1 not in by_1[1], "the tables of section 3.2, by formula (1)", message)
 
 
 @claim("nakamae-nishita.56")
 def counts_of_table_1d() -> Check:
     parts, vertices, faces, _ = counts_in_table_1("d")
     # 25 prisms, 23 on quadrangles and 2 on triangles, and five plates with four corners and two faces.
-    bases = [4] * 23 + [3] * 2
-    plates = (len(bases) + 5, 2 * sum(bases) + 5 * 4, sum(bases) + 2 * len(bases) + 5 * 2)
+    plates = (25 + 5, 2 * (23 * 4 + 2 * 3) + 5 * 4, 23 * (4 + 2) + 2 * (3 + 2) + 5 * 2)
     message = "25 prisms and five plates, each with four corners and two faces, have the printed counts"
     check = exhibited(plates == (parts, vertices, faces), message)
-    # A solid with F faces has at most 2 F - 4 vertices.
-    most = 2 * faces - 4 * parts
+    most = 2 * faces - 4 * parts  # A solid with F faces has at most 2 F - 4 vertices.
     case = f"solids without plates, which have at most {most} vertices if they have {faces} faces"
     return check.unless(most < vertices, case)

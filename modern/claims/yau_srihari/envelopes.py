@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable
 from dataclasses import replace
-from fractions import Fraction
 from functools import cache
 from itertools import combinations, product
 from math import comb
@@ -11,7 +10,7 @@ from random import Random
 import numpy as np
 from numpy.typing import NDArray
 
-from modern.claims.evidence import Check, Generator, claim, exhausted, exhibited, refuted, search, searched, slip
+from modern.claims.evidence import Check, Generator, claim, exhausted, refuted, search, searched, slip
 from modern.claims.hulls import exact_hull, octree_hull
 from modern.claims.sampled_sets import SETS, Point, counterexample_points, plane_through, plane_value, sampled_sets
 from modern.digital.solids import listed
@@ -23,7 +22,7 @@ from modern.papers.yau_srihari.convexity import convex_deficiency, half_cell_exp
 from modern.papers.yau_srihari.hull import components
 from modern.papers.yau_srihari.octree import count, voxels_of
 from modern.papers.yau_srihari.quadtree import Leaf, graph_side, no_columns, written
-from modern.papers.yau_srihari.search import Search, normal_of
+from modern.papers.yau_srihari.search import Bounds, Search, normal_of
 
 SOLID: tuple[Point, ...] = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (2, 1, 0), (2, 1, 1), (2, 2, 1), (2, 2, 2), (1, 2, 2))
 
@@ -98,24 +97,55 @@ def algorithm_as_printed(name: str) -> Check:
 
 
 @claim("yau-srihari.48", "yau-srihari.53", "yau-srihari.54", "yau-srihari.59", "yau-srihari.103", full=500)
+@claim("yau-srihari.2", "yau-srihari.4", full=500)
 def envelopes_against_judge(cases: int = 3) -> Check:
-    message = "the envelopes are the lower and upper faces of the hull; it and flat hulls have the right digital points"
+    message = (
+        "the envelopes have the faces of the exact hull, and the digital points between them are those of the hull"
+    )
     return search(SOLIDS, _envelopes_agree, cases, message)
+
+
+def _only_hulls_pass(voxels: tuple[Point, ...]) -> bool:
+    """Return True if the test of convexity rejects a solid, or its hull less a point, if it lacks a digital point."""
+    points = [(x, y, z) for x, y, z in np.argwhere(hull_of(voxels).filled).tolist()]
+    others = [points[k] for k in range(len(points)) if k not in exact_hull(points).vertices]
+    lacking = [_placed(voxels)] * (len(voxels) < len(points)) + [{*points} - {point} for point in others[:4]]
+    return not any(is_digitally_convex(array_of([*solid])) for solid in lacking)
 
 
 @claim("yau-srihari.49", full=500)
 def digital_hull_by_envelopes(cases: int = 3) -> Check:
     disconnected = disconnected_hull()
-    return envelopes_against_judge(cases).unless(not disconnected.holds, f"a path of stairs: {disconnected.message}")
+    message = "the digital points between the envelopes are those of the exact hull, and no solid tested without some "
+    message += "digital points of its hull passes the test of convexity"
+    check = search(SOLIDS, lambda voxels: _envelopes_agree(voxels) and _only_hulls_pass(voxels), cases, message)
+    return check.unless(not disconnected.holds, f"a path of stairs: {disconnected.message}")
 
 
-@claim("yau-srihari.70", names="angle", full=400)
 @claim("yau-srihari.120", names="angle triangles", full=400)
-@claim("yau-srihari.125", names="marks", full=400)
 def corrected_step(names: str, cases: int = 2) -> Check:
     as_printed = {name: algorithm_as_printed(name) for name in names.split()}
     case = "; ".join(f"{name}: {step.message}" for name, step in as_printed.items())
     return envelopes_against_judge(cases).unless(not any(step.holds for step in as_printed.values()), case)
+
+
+class _AsPrinted(Search):
+    # Delta_1 is computed at the largest height over a square, as the paper prints it.
+    def bounds(self, low: int, high: int, x: int, y: int, side: int) -> Bounds:
+        printed = Search(self.start, self.end, self.normal, Printed.only("bound"))
+        return printed.bounds(low, high, x, y, side)[0], super().bounds(low, high, x, y, side)[1]
+
+
+@claim("yau-srihari.70", full=100)
+def lower_bound_as_printed(cases: int = 2) -> Check:
+    def finds_same(voxels: tuple[Point, ...]) -> bool:
+        tree, steps = hull_of(voxels).lowest, hull_of(voxels).lower.steps
+        starts = [(*step.edge, step.normal, Printed()) for step in steps]
+        return _envelopes_agree(voxels) and all(Search(*s).run(tree) == _AsPrinted(*s).run(tree) for s in starts)
+
+    message = "searches with delta_1 at the printed height find the same points of the next faces as the corrected ones"
+    case = corrected_step("angle", 1).evidence.violation
+    return search(SOLIDS, finds_same, cases, message).unless(case, case)
 
 
 @claim("yau-srihari.68", full=400)
@@ -132,51 +162,44 @@ def rule_2(cases: int = 2) -> Check:
 def disconnected_hull() -> Check:
     stairs = counterexample_points("yau_stairs.csv")
     planes = [facet.plane for facet in exact_hull(stairs).facets]
-    (x, y, z), (u, v, w) = stairs[0], stairs[-1]
-    middle = ((x + u) // 2, (y + v) // 2, (z + w) // 2)
-    lattice = [(i, j, k) for i, j, k in product(range(5), repeat=3)]
-    inside = [p for p in lattice if all(plane_value(plane, p) <= 0 for plane in planes)]
-    alone = middle in inside and not any(sum(abs(a - b) for a, b in zip(p, middle, strict=True)) == 1 for p in inside)
-    whole = tuple(2 * m for m in middle) == (x + u, y + v, z + w)
-    wrong = octree_hull(array_of(stairs)).components == 1 and whole and alone and not is_simple(array_of(inside))
-    message = f"the hull of {len(stairs)} connected voxels has {len(inside)} digital points; {middle} is next to none"
+    inside = [p for p in product(range(5), repeat=3) if all(plane_value(plane, p) <= 0 for plane in planes)]  # type: ignore[arg-type]
+    alone = [p for p in inside if not any(sum(abs(a - b) for a, b in zip(p, q, strict=True)) == 1 for q in inside)]
+    wrong = octree_hull(array_of(stairs)).components == 1 and len(alone) == 1
+    message = f"the hull of {len(stairs)} connected voxels has {len(inside)} digital points; {alone[0]} is next to none"
     return refuted(wrong, message)
 
 
 @claim("yau-srihari.5", full=500)
 def solid_from_deficiency(cases: int = 3) -> Check:
     def is_described(voxels: tuple[Point, ...]) -> object:
-        solid = array_of(voxels)
-        without = hull_of(voxels).filled & ~convex_deficiency(solid)
-        return _envelopes_agree(voxels) and np.array_equal(without, solid)
+        solid, hull = array_of(voxels), hull_of(voxels).filled
+        return _envelopes_agree(voxels) and np.array_equal(hull & ~convex_deficiency(solid), solid)
 
     message = "the digital points in the exact hull of each solid, without the deficiency, are those of the solid"
     return search(SOLIDS, is_described, cases, message)
 
 
-@claim("yau-srihari.35")
-def smallest_convex_solid() -> Check:
+@claim("yau-srihari.35", full=500)
+def smallest_convex_solid(cases: int = 3) -> Check:
     hull = hull_of(SOLID)
     passed = hull.components == 1 and is_simple(hull.filled) and is_digitally_convex(hull.filled)
-    path, middle = counterexample_points("yau_path.csv"), (Fraction(1), Fraction(1, 2), Fraction(1))
-    far = all(max(abs(a - b) for a, b in zip(middle, p, strict=True)) >= 1 for p in path)
-    path_fails = far and bool((octree_hull(array_of(path)).filled == array_of(path)).all())
-    path_fails &= not is_digitally_convex(array_of(path))
-    voxels = (1, 0, 1), (1, 1, 1)
-    completions = [p for p in voxels if p not in path and is_digitally_convex(array_of([*path, p]))]
-    message = f"the hull of {hull.solid_voxels} connected voxels has {hull.voxels} digital points, a convex solid"
+    path = array_of(voxels := counterexample_points("yau_path.csv"))
+    path_fails = np.array_equal(octree_hull(path).filled, path) and not is_digitally_convex(path)
+    completions = [p for p in ((1, 0, 1), (1, 1, 1)) if p not in voxels and is_digitally_convex(array_of([*voxels, p]))]
+    message = f"the hull of {hull.solid_voxels} connected voxels has {hull.voxels} digital points, a convex solid; no "
+    message += "solid tested without some digital points of its hull passes the test of convexity"
+    smallest = map(_only_hulls_pass, (SOLID, *SOLIDS.cases(cases)))
     case = f"a path of six voxels, which becomes convex if any one of {len(completions)} voxels is added"
-    return exhibited(passed, message).unless(path_fails and len(completions) > 1, case)
+    return searched(SOLIDS, cases, [passed, *smallest], message).unless(path_fails and len(completions) > 1, case)
 
 
 @claim("yau-srihari.30", "yau-srihari.33")
 def convex_solid_fails_test() -> Check:
     """Check that a simple solid that fails the test of convexity is convex by definition 3.2.3.
 
-    The half-cell expansion of the solid consists of cells [a, a + 1] with integers a.  Let Q be the hull of cubes of
-    side 1/4 around the solid's points.  Q meets each of these cells, because a corner of a cube is inside the cell.  Q
-    meets another cell, open or closed, only if a is in the hull of the points that result if each point of Q is moved
-    by -1 or 0 along each axis.
+    The half-cell expansion has cells [a, a + 1] with integers a.  Let Q be the hull of cubes of side 1/4 around the
+    solid's points.  Q meets each of these cells, because a corner of a cube is inside the cell.  Q meets another cell,
+    open or closed, only if a is in the hull of the points of Q moved by -1 or 0 along each axis.
     """
     solid = counterexample_points("yau_near.csv")
     cells = {(x - 1, y - 1, z - 1) for x, y, z in np.argwhere(half_cell_expansion(array_of(solid))).tolist()}
@@ -197,10 +220,9 @@ def moved(points: Iterable[Point], steps: tuple[int, ...], scale: int = 1) -> se
 def floor_and_ceiling() -> Check:
     columns = {(x, y): sorted(z for a, b, z in SOLID if (a, b) == (x, y)) for x, y, _ in SOLID}
     alpha, beta = ({at: zs[k] for at, zs in columns.items()} for k in (0, -1))
-    floor, ceiling = dict(hull_of(SOLID).floor), dict(hull_of(SOLID).ceiling)
+    floor, ceiling = hull_of(SOLID).floor, hull_of(SOLID).ceiling
     message = f"in the {len(columns)} columns of a solid, alpha is the floor and beta the ceiling"
-    as_printed, as_corrected = (alpha, beta) == (ceiling, floor), (alpha, beta) == (floor, ceiling)
-    return slip(as_printed, as_corrected, "the floor and the ceiling", message)
+    return slip((alpha, beta) == (ceiling, floor), (alpha, beta) == (floor, ceiling), "floor and ceiling", message)
 
 
 @claim("yau-srihari.56", full=500)
@@ -215,8 +237,7 @@ def extreme_points_in_floor(cases: int = 5) -> Check:
 
 @claim("yau-srihari.67", full=500)
 def rule_1(cases: int = 5) -> Check:
-    """Check that each face, seen from below, is on one side of its directed edges, and that no two faces share one."""
-
+    # Each face, seen from below, is on one side of its directed edges, and no two faces share one.
     def are_opposite(voxels: tuple[Point, ...]) -> bool:
         faces = hull_of(voxels).lower.faces
         edges = [(u, v, f) for f in faces for u, v in sides(f.vertices)]
@@ -229,8 +250,7 @@ def rule_1(cases: int = 5) -> Check:
 @claim("yau-srihari.76", full=500)
 def first_and_last_heights(cases: int = 5) -> Check:
     def agree(voxels: tuple[Point, ...]) -> bool:
-        hull = hull_of(voxels)
-        leaves = []
+        hull, leaves = hull_of(voxels), []
         # The codes of the leaves increase in the order in which sons are visited.
         for (x, y, z), level in zip(hull.solid.corners().tolist(), hull.solid.levels.tolist(), strict=True):
             side = hull.side >> level
@@ -282,8 +302,7 @@ def epigraph_at_inner_nodes() -> Check:
     outcomes, too_full = [], []
     for tops in product(range(3), repeat=4):
         tree = written(no_columns(2), {divmod(k, 2): Leaf(top) for k, top in enumerate(tops)})
-        epigraph = graph_side(tree, above=True)
-        full = voxels_of(epigraph, (2, 2, 2))
+        full = voxels_of(epigraph := graph_side(tree, above=True), (2, 2, 2))
         outcomes.append(all(full[at] == (at[2] >= tree.values[at[:2]]) for at in product(range(2), repeat=3)))
         if tree.low == 0 and count(epigraph) < 8:
             too_full.append(f"the root for the heights {tops}, which would have 8 voxels instead of {count(epigraph)}")

@@ -2,21 +2,8 @@
 
 from __future__ import annotations
 
-from modern.claims.algebra import (
-    Proof,
-    Step,
-    cross,
-    dot,
-    minus,
-    not_negative,
-    point,
-    positive,
-    proves,
-    term,
-    turn,
-    variables,
-    zero,
-)
+from modern.claims import algebra
+from modern.claims.algebra import Proof, Step, dot, not_negative, point, positive, proves, term, turn, variables, zero
 from modern.claims.evidence import Check, claim
 from modern.claims.kovalevsky_schulz.proofs import lemma_lz
 from modern.claims.yau_srihari.envelopes import algorithm_as_printed
@@ -178,7 +165,7 @@ def extreme_point_of_plane() -> Proof:
 @proves("yau-srihari.84")
 def normal_of_starting_face() -> Proof:
     start, end, (c,) = point("w", 3), point("u", 3), variables("c")
-    normal, (dx, dy, _) = cross(minus(end, start), (0 * c, 0 * c, c)), minus(end, start)
+    normal, (dx, dy, _) = algebra.cross(algebra.minus(end, start), (0 * c, 0 * c, c)), algebra.minus(end, start)
     return Proof.of(
         "the normal of a starting face has integer components",
         "The components are polynomials with integer coefficients in coordinates that are integers.",
