@@ -207,7 +207,7 @@ def divided_object(cases: int = 4) -> Check:
         checks.append(without == {line for line in with_ghosts if not _is_in_face(line, boxes)})
         removed += len(with_ghosts) > len(without)
     message = f"of the visible lines of {cases} objects of two boxes, exactly those are removed as ghost lines that "
-    message += f"lie in a plane part of the surface; {removed} of the objects have such lines"
+    message += f"lie in a plane part of the surface; number of objects with such lines: {removed}"
     return searched(PARTS, cases, [*checks, removed], message)
 
 
