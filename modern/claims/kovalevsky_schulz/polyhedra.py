@@ -10,14 +10,14 @@ from modern.claims.hulls import convex_polyhedron, exact_hull
 from modern.claims.kovalevsky_schulz.voxels import SOLIDS, Voxels
 from modern.claims.sampled_sets import CASES, SETS, Point, plane_value, sampled_sets
 from modern.digital.hull import digital_hull
-from modern.digital.solids import Volume, listed
+from modern.digital.solids import Volume, ball, listed
 from modern.exact_hull import ExactHull
 from modern.geometry.mesh import sides
 from modern.geometry.vectors import independent
 from modern.papers.kovalevsky_schulz import CENTRES, INVISIBLE, VERTICES, VISIBLE, expanded, reconstructed, voxel_hull
 from modern.papers.kovalevsky_schulz.cells import CellList, Economical
 from modern.papers.kovalevsky_schulz.coplanar import EXTENDED, QUADRANGLES, coplanar_hull
-from modern.papers.kovalevsky_schulz.corners import Of
+from modern.papers.kovalevsky_schulz.corners import Of, local_corners
 from modern.papers.kovalevsky_schulz.hull import merged, straightened
 from modern.papers.kovalevsky_schulz.polyhedron import Coplanar, CurrentPolyhedron
 
@@ -138,14 +138,7 @@ def cube_visible_from_corner() -> Check:
     return exhibited(agrees, f"{len(planes)} faces and {len(removed)} edges are removed")
 
 
-@claim("kovalevsky-schulz.54")
-def coplanar_triangles() -> Check:
-    cells = polyhedron(GRID)
-    passed = len(merged(cells).faces) == 6 < len(cells.faces)
-    return exhibited(passed, f"the hull of a cubic grid has {len(cells.faces)} triangles, which are merged to 6 faces")
-
-
-@claim("kovalevsky-schulz.166")
+@claim("kovalevsky-schulz.54", "kovalevsky-schulz.166")
 def many_coplanar_triangles() -> Check:
     # A prism on twelve points of a circle of radius 5.
     circle = [(x, y) for x, y in product(range(-5, 6), repeat=2) if x * x + y * y == 25]
@@ -168,20 +161,31 @@ def unmerged_triangles(cases: int = CASES) -> Check:
 @claim("kovalevsky-schulz.56")
 def invisible_needs_fewer_faces() -> Check:
     before, after = (coplanar_hull(points, QUADRANGLES) for points in (PYRAMID, LARGER_PYRAMID))
-    invisible, visible = after.created - before.created, _created(LARGER_PYRAMID) - _created(PYRAMID)
+    invisible, visible = after.created - before.created, _inserted(LARGER_PYRAMID)[0] - _inserted(PYRAMID)[0]
     passed = [*after.faces] == polygons(LARGER_PYRAMID) and after.larger > before.larger and invisible < visible
     message = f"a point adds {invisible} new faces to a pyramid if coplanar faces count as invisible, "
     return exhibited(passed, f"{message}and {visible} if they count as visible")
 
 
-def _created(points: Sequence[Point]) -> int:
-    """Return the number of triangles that inserting the points in order creates if coplanar faces count as visible."""
-    current = CurrentPolyhedron(points, independent(points), VISIBLE)
-    for number in range(len(points)):
-        if first := current.first_visible(number) if number not in independent(points) else 0:
+def _inserted(points: Sequence[Point]) -> tuple[int, int]:
+    """Return the number of triangles created, and of faces tested, if coplanar faces count as visible."""
+    simplex, tested = independent(points), 0
+    current = CurrentPolyhedron(points, simplex, VISIBLE)
+    for number in {*range(len(points))}.difference(simplex):
+        tested += len(current.faces)
+        if first := current.first_visible(number):
             current.extend(number, first)
     # The tetrahedron at the start has four faces.
-    return current.last_face - 4
+    return current.last_face - 4, tested
+
+
+@claim("kovalevsky-schulz.6")
+def tests_of_all_voxels() -> Check:
+    solid = ball(12)
+    corners, voxels = (sorted(map(tuple, p.tolist())) for p in (local_corners(solid, CENTRES), solid.coordinates()))
+    tests, pairs, more_tests = _inserted(corners)[1], 13 * len(voxels), _inserted(voxels)[1]
+    message = f"{pairs} tests of pairs and {tests} of faces for {len(corners)} local corners of {len(voxels)} voxels, "
+    return exhibited(tests + pairs < more_tests / 4, f"{message}but {more_tests} tests of faces for all voxels")
 
 
 @claim("kovalevsky-schulz.58")
@@ -195,7 +199,7 @@ def extended_faces() -> Check:
 def fewest_new_faces(cases: int = 3) -> Check:
     def has_fewest(solid: Voxels) -> bool:
         extended = coplanar_hull(solid, EXTENDED)
-        fewest = min(coplanar_hull(solid, QUADRANGLES).created, _created(solid))
+        fewest = min(coplanar_hull(solid, QUADRANGLES).created, _inserted(solid)[0])
         return [*extended.faces] == polygons(solid) and extended.created < fewest
 
     spatial = replace(SOLIDS, name=f"{SOLIDS.name}, not flat", accepts=lambda s: exact_hull(s).dimension == len("xyz"))

@@ -189,10 +189,18 @@ def diameter_12() -> Check:
 
 @claim("kovalevsky-schulz.96")
 def symmetric_faces() -> Check:
-    points = [vertex.point for vertex in half_ball_cells(10).vertices]
-    faces = exact_hull(points).facets
-    asymmetric = sum(not _is_symmetric([points[k] for k in facet.polygon]) for facet in faces)
-    return refuted(asymmetric > 0, f"{asymmetric} of {len(faces)} faces at the diameter 10 have no symmetry")
+    outcomes, asymmetric = [], {}
+    for row in half_balls():
+        points = half_ball_cells(row.diameter).points
+        rings = [[points[k] for k in facet.polygon] for facet in exact_hull(points).facets]
+        asymmetric[row.diameter] = sum(not _is_symmetric(ring) for ring in rings)
+        # A reflection and the exchange of x and y generate the symmetries of a half-ball.
+        total = min(points)[0] + max(points)[0]
+        faces = {*map(frozenset, rings)}
+        outcomes.append(faces == {frozenset((total - x, y, z) for x, y, z in face) for face in faces})
+        outcomes.append(faces == {frozenset((y, x, z) for x, y, z in face) for face in faces})
+    message = f"symmetries of a half-ball map faces to faces; {asymmetric[10]} faces at diameter 10 have no symmetry"
+    return exhausted("reflections that generate the symmetries of the half-balls of Table 5", outcomes, message)
 
 
 def _is_symmetric(ring: list[Point]) -> bool:
