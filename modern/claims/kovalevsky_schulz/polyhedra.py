@@ -72,7 +72,8 @@ def either_treatment(cases: int = CASES) -> Check:
 def any_order(cases: int = CASES) -> Check:
     outcomes = []
     for points, judge in hulls(cases):
-        for order in (points, points[::-1], sorted(points)):
+        # The construction starts with the first four points of an order that are not coplanar.
+        for order in (sorted(points), *(points[k:] + points[:k] for k in range(len(points)))):
             outcomes.append(exact_hull([order[k] for k in independent(order)]).dimension == 3)
             outcomes.append({*merged(polyhedron(order)).planes()} == {f.plane for f in judge.facets})
     return searched(SETS[3], cases, outcomes, f"{len(outcomes) // 2} orders start with a tetrahedron and give the hull")
