@@ -291,7 +291,11 @@ def theorem_4_5() -> Proof:
 @claim("thesis.132", proof=theorem_4_5, conclusion="convex combinations of the vertices satisfy all inequalities")
 @claim("thesis.133", proof=theorem_4_5, conclusion="a triangle consists of the convex combinations of its corners")
 @claim("thesis.238", proof=theorem_4_5, conclusion="the vertices of H_j satisfy all lines of H_j")
-@claim("thesis.240", "thesis.241", proof=theorem_4_5, conclusion="H_k+1 consists of H_k and the triangle a b p")
+@claim(
+    *("thesis.240", "thesis.241"),
+    proof=theorem_4_5,
+    conclusion="so H_k+1 is H_k and the triangle of the replaced line and the new point",
+)
 @claim("thesis.71", "thesis.135", proof=theorem_4_6)
 @claim("thesis.136", proof=theorem_4_6, conclusion="d^2 (A^2 + B^2) is the square of A x + B y + C for the distance d")
 @claim("thesis.137", "thesis.145", "thesis.259", "thesis.278", proof=theorem_4_7)

@@ -128,7 +128,7 @@ def _extreme(place: Place, axis: int, heights_: Mapping[Place, int]) -> bool:
 
 
 class _Counted(Search):
-    """A search that counts in ``taken`` the points whose angles it computes; ``angles`` also counts bounds."""
+    """A search whose ``taken`` counts the angles of points.  ``angles`` also counts those of corners."""
 
     taken = 0
 
