@@ -55,7 +55,7 @@ def assert_within_one(runs: list[list[float]], published: Sequence[int], most: i
     for estimates, number in zip(zip(*runs, strict=True), published, strict=True):
         assert abs(min(round(median(estimates)), most) - number) <= 1
     near = sum(abs(min(round(e), most) - n) <= 1 for run in runs for e, n in zip(run, published, strict=True))
-    return f"{near:,} of {len(runs) * len(published):,} single results"
+    return f"{near:,} of {len(runs) * len(published):,} results of single seeds"
 
 
 def assert_documented(example: int, count: str) -> None:
