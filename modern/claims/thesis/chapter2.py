@@ -68,10 +68,9 @@ def vertex_of_hull(dimension: int, cases: int = 1) -> Check:
     inner = tuple(int(axis < dimension) for axis in range(3))
     between = [1 for p, q in combinations(corners, 2) if not any(cross(minus(q, p), minus(inner, p)))]  # type: ignore[arg-type]
     alone = not between and len(corners) not in exact_hull([*corners, inner]).vertices
-    message = f"of {len(checks)} points, exactly the vertices are between no two points of the hull"
-    check = searched(SETS[dimension], cases, checks, message)
     body = "triangle" if dimension == 2 else "tetrahedron"
-    return check.unless(alone, f"{inner} inside a {body}, which lies between no two given points")
+    message = f"of {len(checks)} points, exactly the vertices are between no two points of the hull; {inner} inside a "
+    return searched(SETS[dimension], cases, [*checks, alone], f"{message}{body} is between no two given points")
 
 
 @claim("thesis.202", "thesis.27", kind="planes", full=200)

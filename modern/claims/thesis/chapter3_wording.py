@@ -86,11 +86,9 @@ def line_duplicates_as_printed() -> Check:
 
 
 def _duplicates_removed_as_worded(points: Sequence[Point], used: Sequence[int], equations: list[Pair]) -> list[Pair]:
-    """Return the equations of lines that remain if pages 26 to 28 are applied as worded.
-
-    If a third point satisfies an equation, this equation is eliminated, and so is the middle one of the three points.
-    Page 28 says to continue until one equation of each line remains.
-    """
+    """Return the equations of lines that remain if pages 26 to 28 are applied as worded."""
+    # If a third point satisfies an equation, this equation is eliminated, and so is the middle one of the three points.
+    # Page 28 says to continue until one equation of each line remains.
     remaining, vertices = list(equations), list(used)
     for i in used:
         for pair in [*remaining]:
@@ -158,9 +156,8 @@ def first_equation_tested(cases: int = CASES) -> Check:
             numbers += [netc] if before + step == "EC" else []
             stopped = netc if step == "G" else stopped
     later = sum(number > 1 for number in numbers)
-    message = f"{len(numbers)} hulls: the test begins with equation 1 for H_1, and otherwise with the equation at "
-    message += f"which the test of the hull before stopped, in {later} cases a later one; after each equation, the "
-    message += "next is tested or a point is added"
+    message = f"{len(numbers)} hulls: the test begins with equation 1 for H_1, later with the equation at which the "
+    message += f"test before stopped, {later} times not equation 1; after each, the next is tested or a point is added"
     return searched(BOTH, 2 * cases, [*outcomes, later], message)
 
 
@@ -188,10 +185,12 @@ def first_hull_against_extremes(cases: int = 4) -> Check:
     first, six_extremes = _volumes_and_planes(counterexample_points("first_hull.csv"))
     passed = [volume >= 0 for volume in within] + [any(within), *fewer]
     larger = all(own[0] > of_six[0] == 0 for own, of_six in flat) and first[0] > six_extremes[0] > 0
+    own, of_six = _volumes_and_planes(((0, 1, 1), (3, 2, 1), (1, 3, 0), (2, 0, 3)))
     says = f"{len(within)} of {len(fewer)} hulls H_1 use only extreme points, and these are not larger than the hull "
     says += "of the extreme points; no H_1 has more planes than this hull, unless the extreme points are coplanar"
     case = f"a set for which H_1 has the volume {first[0]}/6, and the hull of the extreme points {six_extremes[0]}/6"
-    return searched(SETS[3], cases, passed, says).unless(larger, case)
+    case += f"; and by a tetrahedron, for which both have the volume {own[0]}/6 and {own[1]} planes"
+    return searched(SETS[3], cases, passed, says).unless(larger and own == of_six and own[0], case)
 
 
 def _volumes_and_planes(points: Sequence[Point]) -> tuple[tuple[int, int], tuple[int, int]]:
@@ -206,9 +205,6 @@ def _volumes_and_planes(points: Sequence[Point]) -> tuple[tuple[int, int], tuple
 
 
 def _extreme_points(points: Sequence[Point]) -> list[Point]:
-    """Return the extreme points of a set.
-
-    If several are equal, take the last, as program 1 does (statements 134 to 146).
-    """
+    """Return the extreme points of a set: of several equal ones the last, as in program 1 (statements 134 to 146)."""
     extreme = {choose(reversed(points), key=lambda p, k=k: p[k]) for choose in (min, max) for k in range(3)}  # type: ignore[misc]
     return [point for point in points if point in extreme]

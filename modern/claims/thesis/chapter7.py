@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache, partial
 from itertools import pairwise
@@ -20,7 +20,6 @@ from modern.claims.hulls import convex_hull, exact_hull
 from modern.claims.register import statements_of
 from modern.claims.sampled_sets import BOTH, CASES, Point, counterexample, flat_and_spatial_sets
 from modern.claims.thesis.chapter3_steps import between_by_distances
-from modern.claims.thesis.identities import constant_term_at_c
 from modern.comparison.outcome import Vector, from_cards
 from modern.edition import programs
 from modern.formats.deck import coordinate_field, data_deck, exact_points
@@ -189,10 +188,11 @@ def truncated_roots() -> Check:
         squares = [distance_squared(x[i], y[i], x[j], y[j]) for i, j in ((0, 1), (0, 2), (1, 2))]
         sums[name] = arithmetic.distances_add_up(*squares)
     punched, judge = vertices_of("between.deck")
-    case = "eight digits: the distances of (0, 0) from (1, 0) and (100000000, 0) add up to that of these two points; "
-    case += f"other distances do not add up, and {len(judge - punched)} vertex of between.deck is not punched"
+    check = between_by_distances()
+    message = f"{check.message}; in eight digits, the distances of (0, 0) from (1, 0) and (100000000, 0) add up to "
+    message += f"that of these two points, and {len(judge - punched)} vertex of between.deck is not punched"
     wrong = not sums["exact"] and sums["truncating"] and judge - punched and punched - judge
-    return between_by_distances().unless(wrong, case)
+    return replace(check, holds=check.holds and bool(wrong), message=message)
 
 
 def vertices_of(name: str) -> tuple[set[int], set[int]]:
@@ -228,11 +228,6 @@ def orientation_by_c(cases: int = CASES) -> Check:
     fault = plane_through_c()
     check = searched(BOTH, 2 * cases, checks, message)
     return check.unless(not fault.holds, f"a plane through C that is eliminated later: {fault.message}")
-
-
-@claim("thesis.190")
-def orientation_by_constant_term() -> Check:
-    return constant_term_at_c().check().unless(not plane_through_c().holds, "a plane through C, for which both are 0")
 
 
 @claim("thesis.160", part="values")

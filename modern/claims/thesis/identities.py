@@ -194,10 +194,11 @@ def other_letters() -> Proof:
 @claim("thesis.55", "thesis.126", proof=perpendicular_projection)
 @claim("thesis.56", proof=perpendicular_projection, conclusion="the rule omits a coordinate with a nonzero coefficient")
 @claim("thesis.237", proof=perpendicular_projection, conclusion="C_0 is 0 exactly if the planes are perpendicular")
-@claim("thesis.127", "thesis.198", proof=projection_along_axis)
+@claim("thesis.198", proof=projection_along_axis)
 @claim("thesis.139", proof=coordinates_of_figure_3)
 @claim("thesis.128", proof=coefficient_c_0)
 @claim("thesis.130", proof=other_letters)
+@claim("thesis.190", proof=constant_term_at_c)
 def proof_of_identity(proof: Callable[[], Proof], conclusion: str = "") -> Check:
     return proof().check(conclusion)
 
