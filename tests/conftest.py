@@ -36,21 +36,23 @@ def pytest_collection_finish() -> None:
     gc.freeze()
 
 
-WORKER = os.environ.get("PYTEST_XDIST_WORKER", "")
-"""The name of this worker; it is empty if one process runs all tests, also without the plugin xdist."""
+def _worker(config: pytest.Config) -> str:
+    """Return the name of this worker, or "" if one process runs all tests; the plugin xdist need not be loaded."""
+    return str(getattr(config, "workerinput", {}).get("workerid", ""))
 
 
 @pytest.fixture(scope="session")
-def shared(tmp_path_factory) -> Path:
+def shared(tmp_path_factory, pytestconfig: pytest.Config) -> Path:
     """Return a folder that all workers of the test session share."""
     base = tmp_path_factory.getbasetemp()
-    return base.parent if WORKER else base
+    return base.parent if _worker(pytestconfig) else base
 
 
 @pytest.fixture(scope="session", autouse=True)
 def _site(request: pytest.FixtureRequest, shared: Path) -> Iterator[None]:
     """Start to build the site in the background, if tests of several workers will need it."""
-    if WORKER != "gw0" or not any("site" in getattr(item, "fixturenames", ()) for item in request.session.items):
+    needs_site = any("site" in getattr(item, "fixturenames", ()) for item in request.session.items)
+    if _worker(request.config) != "gw0" or not needs_site:
         yield
         return
     process = editions.begin(shared)

@@ -24,7 +24,7 @@ from modern.publication.console import install_machine
 from tests.support.paths import ROOT
 
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium-headless-shell", "chromium", "chromium-browser"))), "")
-"""The browser without a window opens a page in a third of the time that the whole browser needs."""
+"""The path of a browser. Debian's browser without a window needs a third of the processor time of the whole one."""
 
 MODULES = ROOT / "docs" / "console" / "node_modules"
 """The folder into which ``npm ci --prefix docs/console`` installs axe and html-validate."""

@@ -78,8 +78,11 @@ def draw_points(random: Random, count: tuple[int, int], coordinates: tuple[int, 
     return tuple((random.randint(*coordinates), random.randint(*coordinates)) for _ in range(random.randint(*count)))
 
 
-# A corridor that winds around itself, by x and y; in the end its outer wall remains, all points of which are convex.
-SPIRAL = (*zip((-1, 6, 6, 0, 0, 4, 4, 3, 3, 1, 1, 5, 5, -1), (0, 0, 6, 6, 2, 2, 4, 4, 3, 3, 5, 5, 1, 1), strict=True),)
+# A corridor that winds around itself; in the end its outer wall remains, all points of which are convex.
+SPIRAL: tuple[Flat, ...] = (
+    *((-1, 0), (6, 0), (6, 6), (0, 6), (0, 2), (4, 2), (4, 4)),
+    *((3, 4), (3, 3), (1, 3), (1, 5), (5, 5), (5, 1), (-1, 1)),
+)
 RINGS: Generator[tuple[Flat, ...]] = Generator(
     "simple polygons of 4 to 8 corners on a grid of 7 by 7",
     4,

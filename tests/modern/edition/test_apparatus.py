@@ -39,14 +39,15 @@ def test_every_page_is_marked(name: str, first: int, last: int) -> None:
     ],
 )
 def test_a_row_names_its_pages_and_cards(row: str, page: str, cards: str) -> None:
-    found = programs.text(f"program{row[1]}").row(row)
-    assert (found.page, programs.cards_of(found)) == (page, cards)
+    emendation = programs.text(f"program{row[1]}").row(row)
+    assert (emendation.page, programs.cards_of(emendation)) == (page, cards)
 
 
 @pytest.mark.parametrize("name", programs.NAMES)
 def test_a_card_is_named_by_its_statement(name: str) -> None:
     pairs = list(zip(programs.card_names(name), programs.committed(name).cards, strict=True))
     comments = {number for number, (_, card) in enumerate(pairs) if card.text.startswith("C  ")}
+    assert pairs[0][0] == "title"
     for number in comments - {0}:
         following = next(named for k, (named, _) in enumerate(pairs) if k > number and k not in comments)
         assert pairs[number][0] == f"before {following}"

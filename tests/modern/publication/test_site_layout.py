@@ -21,9 +21,11 @@ WINDOWS: tuple[tuple[int, Theme, bool], ...] = (
     *((360, "light", False), (768, "dark", False), (1280, "light", False)),
     *((1280, "dark", True), (360, "dark", True)),
 )
+"""The widths and themes of the check; True opens everything that the reader can open."""
+
 PAPER = 673
 """The width of a printed A4 page without its margins, in pixels."""
-"""The widths and themes of the check; True opens everything that the reader can open."""
+
 PICTURES = (("example2.html", ".print-cards"), ("program3.html", "[id='147']"), ("index.html", "h1"))
 REFERENCES = DATA / "site"
 TOLERANCE = 0.02
