@@ -36,11 +36,14 @@ class ForeignStatement:
 
 _II, _IV, _II_D = "FORTRAN II", "FORTRAN IV", "FORTRAN II-D"
 _DECK = "in this dialect a deck is one program, so the cards from this one to its END are skipped"
-_WHOLE = "leave it out: all names belong to one program, and arrays are named by DIMENSION"
+_WHOLE = "leave it out: all names belong to one program, and DIMENSION declares the arrays"
 _TYPE = "leave it out: names that begin with I to N are fixed point, all others floating"
 _FORMAT = "give the number of a FORMAT after the verb, as in READ 5, A, B"
 _DEVICE = "in this dialect the verb names the device, as in READ 5, A, B or PUNCH 6, A"
 _TAPE = "the emulated 1620 has no tape; read and punch cards with READ and PUNCH"
+_COMPARE = (
+    "write IF (A-B) n1, n2, n3, which branches to n1 if A is less than B, n2 if they are equal, n3 if A is greater"
+)
 _DISK = "the emulated 1620 has no disk"
 _MODES = "(?:REAL|INTEGER|LOGICAL|COMPLEX|DOUBLEPRECISION)"
 
@@ -52,9 +55,12 @@ _STATEMENTS: tuple[tuple[str, ForeignStatement], ...] = (
         "CALL[A-Z]",
         ForeignStatement("CALL", _II, "put the statements of the subprogram in its place; CALL EXIT is STOP"),
     ),
-    ("RETURN$", ForeignStatement("RETURN", _II, "leave a part of the program by GO TO")),
+    (
+        "RETURN$",
+        ForeignStatement("RETURN", _II, "use GO TO: the statements of the subprogram become part of the program"),
+    ),
     ("COMMON", ForeignStatement("COMMON", _II, _WHOLE, declares="(")),
-    ("EQUIVALENCE", ForeignStatement("EQUIVALENCE", _II, "give one name to the quantities that share storage")),
+    ("EQUIVALENCE", ForeignStatement("EQUIVALENCE", _II, "use the same name for all quantities that share storage")),
     (
         "EXTERNAL[A-Z]",
         ForeignStatement("EXTERNAL", _IV, "there are no subprograms to pass as arguments", declares="all"),
@@ -64,7 +70,7 @@ _STATEMENTS: tuple[tuple[str, ForeignStatement], ...] = (
     ("IMPLICIT", ForeignStatement("IMPLICIT", _IV, _TYPE)),
     ("DATA[(A-Z]", ForeignStatement("DATA", _IV, "give variables their first values by assignments or from cards")),
     ("NAMELIST", ForeignStatement("NAMELIST", _IV, _FORMAT)),
-    ("PROGRAM[A-Z]", ForeignStatement("PROGRAM", _IV, "leave it out: a program has no name here")),
+    ("PROGRAM[A-Z]", ForeignStatement("PROGRAM", _IV, "leave it out: a program of this dialect has no name")),
     (r"ASSIGN\d", ForeignStatement("ASSIGN", _II, "set a variable and use GO TO (n1, n2, ...), i")),
     (
         "GOTO[A-Z]",
@@ -80,7 +86,7 @@ _STATEMENTS: tuple[tuple[str, ForeignStatement], ...] = (
             "a test of overflow", _II, "the emulated 1620 reports overflows and continues with the largest number"
         ),
     ),
-    (r"IF\(", ForeignStatement("a logical IF", _IV, "write IF (A-B) n1, n2, n3 for less, equal, greater")),
+    (r"IF\(", ForeignStatement("a logical IF", _IV, _COMPARE)),
     ("FREQUENCY", ForeignStatement("FREQUENCY", "the FORTRAN of the 704", "leave it out")),
     (
         "(ACCEPT|PUNCH|READ|TYPE)TAPE",
@@ -105,25 +111,30 @@ _STATEMENTS: tuple[tuple[str, ForeignStatement], ...] = (
 _KINDS = {"unknown", "input_output", "go_to", "if", "assignment"}
 _COMPILED = tuple((re.compile(pattern), word) for pattern, word in _STATEMENTS)
 _LOGIC = re.compile(r"\.(EQ|NE|LT|LE|GT|GE|AND|OR|NOT|TRUE|FALSE)\.")
-_LOGICAL = ForeignStatement("a logical expression", _IV, "write IF (A-B) n1, n2, n3 for less, equal, greater")
+_LOGICAL = ForeignStatement("a logical expression", _IV, _COMPARE)
 # Every statement that :func:`identify` recognises.
 FOREIGN_STATEMENTS = (*(statement for _, statement in _STATEMENTS), _LOGICAL)
 STATEMENT_FUNCTION = ForeignStatement("a statement function", _II, "write its expression where it is used")
 
 # The replacement, in this FORTRAN, for functions of other FORTRANs.
 _INSTEAD = {
-    "IF (X) n1, n2, n2 and, at n1, X=-X": ("ABS", "XABS", "IABS", "DABS"),
+    "IF (X) n1, n2, n2 with X=-X as statement n1 and CONTINUE as n2": ("ABS", "XABS", "IABS", "DABS"),
     "LOG": ("ALOG", "DLOG", "LN", "LOGE"),
     "LOG(X)/2.3025851": ("ALOG10", "LOG10", "LOGTEN"),
     "ATAN": ("ARCTAN", "ATN", "ARTAN", "ARCTN"),
     "ATAN(X/SQRT(1.-X*X))": ("ASIN", "ARSIN", "ARCSIN"),
     "SIN(X)/COS(X)": ("TAN",),
     "SQRT": ("SQR", "SQROOT", "DSQRT"),
-    "(EXP(X)-EXP(-X))/2. and its like": ("SINH", "COSH", "TANH"),
+    "(EXP(X)-EXP(-X))/2.": ("SINH",),
+    "(EXP(X)+EXP(-X))/2.": ("COSH",),
+    "(EXP(X)-EXP(-X))/(EXP(X)+EXP(-X))": ("TANH",),
     "A=I": ("FLOAT", "DFLOAT"),
     "I=A": ("FIX", "IFIX", "XFIX", "INT", "XINT", "AINT", "IDINT"),
     "N-N/M*M": ("MOD", "XMOD", "AMOD"),
-    "IF (A-B) n1, n2, n3": ("SIGN", "ISIGN", "XSIGN", "DIM", "IDIM", "XDIM", "AMAX1", "AMIN1", "MAX0", "MIN0"),
+    "IF (A-B) n1, n2, n3 with an assignment as each of the statements n1, n2 and n3": (
+        *("SIGN", "ISIGN", "XSIGN", "DIM", "IDIM", "XDIM"),
+        *("AMAX1", "AMIN1", "MAX0", "MIN0"),
+    ),
 }
 _BY_NAME = {name: replacement for replacement, names in _INSTEAD.items() for name in names}
 

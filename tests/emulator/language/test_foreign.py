@@ -187,7 +187,7 @@ def test_names_and_functions_of_foreign_statements_are_reported_once() -> None:
 @pytest.mark.parametrize(
     ("name", "words"),
     [
-        ("ABS", "for ABS write IF (X) n1, n2, n2 and, at n1, X=-X"),
+        ("ABS", "for ABS write IF (X) n1, n2, n2 with X=-X as statement n1 and CONTINUE as n2"),
         ("XABSF", "for XABSF write IF (X)"),
         ("ALOG", "for ALOG write LOG"),
         ("ALOG10", "for ALOG10 write LOG(X)/2.3025851"),
