@@ -100,7 +100,7 @@ def parse_toml(text: str, parse_float: Callable[[str], Any] = float) -> dict[str
         if len(number[0]) < _MANY_DIGITS:
             raise ValueError(str(error)) from None
         line, column = text.count("\n", 0, number.start()) + 1, number.start() - text.rfind("\n", 0, number.start())
-        raise ValueError(f"a number has {len(number[0])} digits (at line {line}, column {column})") from None
+        raise ValueError(f"a number has too many digits, {len(number[0])} (at line {line}, column {column})") from None
 
 
 def reason(error: OSError) -> str:

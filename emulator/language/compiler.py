@@ -185,7 +185,7 @@ class _Translation:
         for statement in self.statements:
             if statement.label in self.labels and statement.label:
                 first = self.labels[statement.label].card
-                self._error(statement.place, f"statement number {statement.label} stands on card {first} already")
+                self._error(statement.place, f"statement number {statement.label} is already used on card {first}")
             self.labels.setdefault(statement.label, statement.place)
 
     def _check_functions(self) -> None:
@@ -349,10 +349,8 @@ class _Translation:
             do = self.open_dos.pop()
             self.opened[do.label] -= 1
             if do.label != statement.label:
-                self._error(
-                    do.place,
-                    f"this DO ends with {do.label}, but must end inside the DO that ends with {statement.label}",
-                )
+                what = f"this DO ends with statement {do.label}, but must end before the end of the DO around it"
+                self._error(do.place, f"{what}, statement {statement.label}")
                 continue
             self.emitter.count(do.statement, False, "closing of the DO")
             self.emitter.emit(op.DOTEST, address=do.loop)

@@ -84,8 +84,10 @@ def _jumps_into_loops(program: Program, follow: Sequence[Sequence[int]]) -> Iter
                 innermost = max(entered, key=lambda inside: inside.start)
                 do, name = program.line_at(innermost.start - 1), program.storage.name_of(ranges[innermost])
                 label, card = program.line_at(target).label, do.place.card
-                jump = f"this jump to {label} enters the range of the DO on card {card}"
-                yield _warning(program.line_at(pc), f"{jump}; the DO continues with the old value of {name}")
+                jump = f"this jump to statement {label} enters the loop of the DO on card {card} from outside"
+                yield _warning(
+                    program.line_at(pc), f"{jump}; the loop continues with the value that {name} has at the jump"
+                )
 
 
 def _reached(follow: Sequence[Sequence[int]], start: int, inside: range) -> set[int]:

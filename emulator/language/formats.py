@@ -105,7 +105,7 @@ def parse_format(statement: Format) -> tuple[FormatSpec, tuple[Diagnostic, ...]]
     # Error type 12 is only a warning here, because the deck still runs (p. 56).
     if widest > MAX_RECORD:
         place = statement.places[0]
-        lost = f"a card holds 72 of them and a typed line {MAX_RECORD}, and the rest is lost"
+        lost = f"a card holds only the first 72, and a typed line the first {MAX_RECORD}"
         message = f"a record of this FORMAT has {widest} characters; {lost}"
         warnings.append(Diagnostic(place.card, place.column, message, 12, warning=True))
     return spec, tuple(warnings)

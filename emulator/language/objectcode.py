@@ -46,7 +46,7 @@ MEANINGS = {
     "IFX": "branch on the fixed accumulator",
     "RSGN": "reverse the sign of FAC, of a zero too",
     "RSGX": "reverse the sign, fixed",
-    "DOTEST": "step the variable of a DO, back if not past the limit",
+    "DOTEST": "add the step to the variable of a DO, and branch back if it does not exceed the limit",
     "SELECT": "computed go to",
     "SWITCH": "branch on a sense switch, or with 9 on the last card",
     "FLOAT": "fixed to floating",

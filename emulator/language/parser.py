@@ -135,7 +135,7 @@ def _column_warnings(source: Source) -> Iterator[Diagnostic]:
     if source.label and not first.columns(1, 5).strip() and first.columns(6, 6).isdigit():
         what = f"statement number {source.label} begins in column 6, where other compilers expect a continuation mark"
         yield Diagnostic(first.number, 6, what, warning=True, about="column 6")
-    not_read = "columns 73 to 80 are identification and not read"
+    not_read = "columns 73 to 80 hold the identification of the card and are not read"
     for card in source.cards:
         if " " not in card.columns(72, 73):
             what = f"{not_read}, but a punch in column 72 suggests that the statement continues there"

@@ -165,7 +165,9 @@ class Comparison:
         card, name, text = self._line(pc).place.card, self._reference.name, self._reference.text(value)
         size = "any amount" if bound is None else f"1E{math.ceil(_logarithm(bound)):+03d}"
         remedy = "compare with exact arithmetic, or with more digits"
-        return f"at card {card} the value in {name} is {text}, which rounding may have changed by {size}; {remedy}"
+        return (
+            f"at card {card} the tested value is {text} in {name}, and rounding may have changed it by {size}; {remedy}"
+        )
 
     def _lost(self, entry: Entry, reference_entry: Entry) -> tuple[float | None, float | None, bool]:
         """Return the digits lost, the relative difference, and True if the reference's rounding explains a difference.

@@ -198,7 +198,7 @@ class Devices:
             last = self.deck.cards[-1].number
             raise DeckError(
                 f"{self.deck.source}: card {last}, column 1: the deck ends in the middle of a data set; "
-                f"another card is read by {here.name} of {self.program.source}"
+                f"{here.name} of {self.program.source} needs another card"
             )
         card = self.deck.cards[self.position]
         if card.text.startswith("C"):

@@ -92,7 +92,7 @@ class Ending:
         source = f"{self.source}: " if self.source else ""
         if self.line is None:
             if self.costly:
-                work = f"the work of {self.count} statements, {self.costly} of it for costly operations"
+                work = f"the work of {self.count} statements, of which costly operations account for {self.costly}"
                 return f"{source}stopped after {work}{_loop(self)}"
             return f"{source}stopped after {self.count} statements{_loop(self)}"
         return f"{source}card {self.line.place.card}: {_trouble_in(self, self.line)}"
@@ -102,7 +102,7 @@ def _trouble_in(ending: Ending, line: Line) -> str:
     there = f"in {line.label} {line.text}" if line.label else f"in {line.text}"
     match ending.kind:
         case "limit":
-            work = f"the limit is the work of {ending.count} statements, and one operation would exceed it, {there}"
+            work = f"one operation would exceed the limit, the work of {ending.count} statements, {there}"
             return f"{work}; use a larger --limit or numbers of fewer digits"
         case "bounds":
             subscripts, shape = (",".join(map(str, numbers)) for numbers in (ending.subscripts, ending.shape))
@@ -122,7 +122,9 @@ def _trouble_in(ending: Ending, line: Line) -> str:
         case "mode" if ending.put_out:
             return f"{ending.name} holds a number in {ending.mode} point, which cannot be written, {there}"
         case "record":
-            return f"ERROR F9: a record of FORMAT {ending.format} has more characters than the device columns, {there}"
+            return (
+                f"ERROR F9: a record of FORMAT {ending.format} has more characters than the device has columns, {there}"
+            )
         case "mode":
             # This occurs only with --bounds core, if a subscript reaches a neighbouring field.
             return f"{ending.name} holds a number in {ending.mode} point, {there}"

@@ -171,7 +171,7 @@ class FromFile(Operator):
         wrong = ("START", "ATTN") if halt.what == "accept" else ("ENTER", "ATTN")
         if line.at is not None or line.action.word in wrong:
             action_text = action_line(line.action, line.at)
-            raise OperatorError(f"{self.name}: line {line.number}: {action_text}, but {halt_line(halt)}")
+            raise OperatorError(f"{self.name}: line {line.number}: found {action_text}, but {halt_line(halt)}")
         return self._next_action(session)
 
     def _next_action(self, session: Session) -> Action:

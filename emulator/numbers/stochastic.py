@@ -170,7 +170,7 @@ def stochastic(name: str) -> StochasticNumbers | StochasticBinaryNumbers | Sampl
         raise ArgumentError(
             f"{name[:40]}: expected {NAME}:P:SEED for P decimal digits, or {NAME}:BITSb:SEED for BITS bits; SEED is an "
             "integer, or a range such as 1-10 for ten runs that all take the same branches; only :proportional may "
-            "follow, and then, for a range, :majority"
+            "follow, and after a range also :majority, as in stochastic:8:1-10:proportional:majority"
         )
     size, seed, last = int(match["size"]), int(match["seed"]), int(match["last"] or match["seed"])
     least, most, what = (MIN_BITS, MAX_BITS, "bits") if match["binary"] else (MIN_DIGITS, MAX_DIGITS, "digits")

@@ -31,7 +31,7 @@ CLASSES = {
     "sign of zero": "one zero has a minus sign and the other has none",
     "notation": "equal numbers that are printed differently",
     "last digits": "floating-point numbers that differ by less than 20 units of the eighth digit",
-    "order": "a card that occurs at another place",
+    "order": "a card that occurs, but at another place",
     "other": "any other difference",
 }
 

@@ -140,7 +140,7 @@ def _fitted(name: str, card: Card, source: Source | None, compiler: Compiler) ->
     images = tuple(_image(name, part) for part in source.cards)
     if compiler == "pdq":
         if source.text in _FOR_PDQ:
-            reason = "PDQ's compiler stops at a jump to 184 from outside the range of the DO that ends there"
+            reason = "PDQ's compiler stops at a jump to statement 184 from outside the DO that ends with it"
             return (f"{source.label:>5} {_FOR_PDQ[source.text]}",), reason
         if len(source.cards) == 1:
             return images, ""

@@ -124,7 +124,7 @@ def compare_step(program: Path, step: Step, decisions: Sequence[Decision], count
     counts.add("runs with other typed lines", typed != list(result.typed), where)
     counts.add("runs with other decisions", branches != expected, where)
     pairs = zip(logged, decisions, strict=False)
-    counts.add("values that decide and differ", sum(float(a[2]) != float(b.value) for a, b in pairs), where)
+    counts.add("tested values that differ", sum(float(a[2]) != float(b.value) for a, b in pairs), where)
 
 
 def samples(count: int) -> Iterator[Deck]:

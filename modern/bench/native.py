@@ -47,7 +47,7 @@ def compiler() -> Compiler:
     if command_of_fc:
         raise NoCompiler(f"the Fortran compiler that FC names, {command_of_fc[0]}, is not installed")
     raise NoCompiler(
-        f"no Fortran compiler is installed ({', '.join(COMPILERS)}, or the value of FC); no native program is run"
+        f"expected a Fortran compiler ({', '.join(COMPILERS)}, or the value of FC), found none; no native program runs"
     )
 
 

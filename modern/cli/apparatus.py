@@ -74,7 +74,9 @@ def main(args: argparse.Namespace) -> int:
         proofs.append(proof)
         print(_line(proof), flush=True)
     if everything and find_spec("numpy") is None:
-        print("not checked, because numpy is not installed: the later papers, and the hulls of the layer corrected")
+        print(
+            "the later papers and the hulls of the layer `corrected` were not checked, because numpy is not installed"
+        )
     failed = sum(not proof.holds for proof in proofs)
     print(f"{len(proofs) - failed} of {len(proofs)} checks hold" + (f"; {failed} FAIL" if failed else ""))
     return DIFFERS if failed else OK

@@ -91,7 +91,9 @@ def _check_options(args: argparse.Namespace) -> None:
         if argument is not None and not (draws and (args.output != "-" or args.map or args.star_of)):
             raise UsageError(f"{option} applies only to a picture: add -o FILE.svg")
     if args.eye is not None and (args.map or args.star_of):
-        raise UsageError("--eye applies only to the solid: a map is planar, and a star polygon is seen along its line")
+        raise UsageError(
+            "--eye applies only to a picture of the solid: --map draws in the plane, and --star-of looks along its line"
+        )
 
 
 def _written(

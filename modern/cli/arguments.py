@@ -57,7 +57,7 @@ def _diverge(parser: ArgumentParser) -> None:
         "if the program reads no cards)",
     )
     against = (
-        "compare --arithmetic with this arithmetic, and ignore differences that its rounding may explain "
+        "compare --arithmetic with this arithmetic, and ignore differences that rounding in this one may explain "
         "(default: %(default)s)"
     )
     add(parser, {"--against NAME": against}, default="exact")
@@ -74,8 +74,8 @@ def _digits(parser: ArgumentParser) -> None:
     add(parser, {"--seed S": "give the runs the seeds S, S + 1, ... (default: 1)"}, type=int)
     modes = {
         "--proportional": "round up with a probability proportional to the rounded-off part, instead of 1/2",
-        "--majority": "let all runs take the branch that most of them would take, instead of that for their mean",
-        "--independent": "estimate the printed numbers from runs of which each takes its own branches",
+        "--majority": "let all runs take the branch that most of them would take, instead of the branch of their mean",
+        "--independent": "estimate the digits of the printed numbers from runs that each take their own branches",
     }
     add(parser, modes)
     outputs = {
@@ -145,7 +145,9 @@ def _apparatus(parser: ArgumentParser) -> None:
     add(parser, rows)
     text = "with --check: compare the excerpts in this project with FILE, the whole OCR text of a document"
     add(parser, {"--text FILE": text}, type=InputFile)
-    collate = "compare every reading of the listings with FILE, another transcription of the listings or of a part"
+    collate = (
+        "compare every reading of the listings with FILE, another transcription of the listings or of a part of them"
+    )
     add(parser, {"--collate FILE": collate}, type=InputFile)
     shared.json_argument(parser, "collation")
     add(parser, {"--csv FILE": "with --collate: write a table with a row for each reading"}, type=OutputFile)

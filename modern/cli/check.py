@@ -17,7 +17,7 @@ _MOST_MESSAGES = 100
 def main(args: argparse.Namespace) -> int:
     if args.explain is not None:
         if args.program is not None:
-            raise UsageError("--explain: expected an error number without a program")
+            raise UsageError("--explain: expected only an error number, found also a program")
         print("\n".join(explained(args.explain)))
         return OK
     if args.program is None:

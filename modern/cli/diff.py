@@ -136,7 +136,8 @@ def _table(routes: list[Route], exact: Outcome, source: Input) -> Iterator[str]:
 def _notes(outcome: Outcome) -> list[str]:
     notes = [] if outcome.ending is None else [outcome.ending.message]
     if outcome.faulty:
-        notes.append(f"equations {', '.join(map(str, outcome.faulty))} do not vanish at their points")
+        numbers = ", ".join(map(str, outcome.faulty))
+        notes.append(f"equations of program 1 that are not 0 at the points that they should contain: {numbers}")
     return notes
 
 

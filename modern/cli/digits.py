@@ -95,7 +95,7 @@ def _runs(args: argparse.Namespace, studied: Numbers) -> SampledNumbers:
     """Return the stochastic runs that the options request. Raise UsageError if the options are invalid."""
     if isinstance(studied, SampledNumbers):
         if args.runs is not None or args.seed is not None or args.proportional or args.majority:
-            known = "already says how many runs there are and how they are seeded"
+            known = "already states the number of runs and their seeds"
             raise UsageError(f"{studied.name} {known}; omit --runs, --seed, --proportional and --majority")
         return studied
     runs, seed = 10 if args.runs is None else args.runs, 1 if args.seed is None else args.seed
@@ -145,14 +145,14 @@ def _numbers(result: Result, truth: Numbers, reference: Result | None, runs: Sam
             rows.append((str(record), columns, _one(true), *_estimated(estimated), _verdict(estimated, true)))
     sentences = [f"true: digits that agree with a run in {truth.name} arithmetic"]
     if not same:
-        sentences = [f"the true digits are unknown, because a run in {truth.name} arithmetic prints other records"]
+        sentences = [f"the true digits are unknown, because a run in {truth.name} arithmetic prints different records"]
     if studied and not estimates:
-        sentences.append("no digits can be estimated, because the runs with random rounding print other records")
+        sentences.append("no digits can be estimated, because the runs with random rounding print different records")
     if not result.ending.normal:
         sentences.append(f"the run ended early: {result.ending.outcome}")
     if isinstance(runs, Independent):
         shares = " + ".join(map(str, runs.shares))
-        sentences.append(f"groups of runs that print the same records, apart from digits: {shares}")
+        sentences.append(f"sizes of the groups of runs whose records differ only in digits: {shares}")
     return Table("Printed numbers", sentences, ("line", "number", "true", "estimated", "at least", "verdict"), rows)
 
 
@@ -250,7 +250,7 @@ def _statements(divergence: Divergence, sampling: Sampling) -> Table:
             digits = _one(row.worst), _one(row.median), _one(row.sure), str(row.zeros)
             rows.append((*_columns(row.line), str(row.times), *lost, *digits))
     most = f"{sampling.numbers.digits:.1f}"
-    sentences = [f"digits, of at most {most}; statements that are not listed are exact in every run"]
+    sentences = [f"numbers of digits, at most {most}; statements that are not listed are exact in every run"]
     if divergence.first_value is not None:
         value = divergence.first_value
         sentences.append(

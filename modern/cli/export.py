@@ -9,7 +9,7 @@ from modern.formats.export import format_of, write_hull
 
 def main(args: argparse.Namespace) -> int:
     if args.format is None and args.output == "-":
-        raise UsageError("export: name a file with -o, or for standard output a format with --format")
+        raise UsageError("export: add -o FILE, or add --format to write to standard output")
     form = args.format or format_of(args.output)
     hull, notes = exact_hull_of(args.points, procedure=form == "json", within=args.coplanar_within)
     if not hull.determined and form != "json":

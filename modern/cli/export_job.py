@@ -9,7 +9,7 @@ from emulator.language.compiler import compile_deck
 from emulator.language.parser import parse
 from emulator.machine.machine import Machine
 from emulator.objectdeck.job import Change, Job, job
-from modern.cli.shared.console import OK, UsageError, print_notes, write_folder
+from modern.cli.shared.console import OK, UsageError, counted, print_notes, write_folder
 from modern.cli.shared.inputs import deck_of
 from modern.cli.shared.programs import machine_options, source_deck
 
@@ -52,16 +52,17 @@ def main(args: argparse.Namespace) -> int:
     deck = source_deck(args)
     program, data = compile_deck(deck), Deck(deck.source, parse(deck).data)
     if args.deck and data.cards:
-        raise UsageError(f"{deck.source}: the cards after END are data; remove them to read {args.deck}")
+        raise UsageError(f"{deck.source}: the cards after END are data; remove them if the job should read {args.deck}")
     if args.deck:
         data = _data(args.deck)
     exported = job(deck, program, data, args.compiler)
     result = Machine(program, data, replace(machine_options(args), hopper="any")).run()
     if not result.punched:
-        print_notes([f"note: {deck.source}: the program punches no cards; there will be nothing to compare"])
+        print_notes([f"note: {deck.source}: the program punches no cards, so the job cannot compare any"])
     write_folder(args.out, folder_of(exported, deck.source, result.punched, args.switch))
     cards = f"{len(exported.source)} cards of the program, {len(exported.data)} of data"
-    print(f"{args.out}: {cards}, {len(exported.changes)} changes; README.txt says how to run the job")
+    changes = counted(len(exported.changes), "change")
+    print(f"{args.out}: {cards}, {changes} for the old compiler; README.txt says how to run the job")
     return OK
 
 

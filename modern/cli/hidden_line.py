@@ -49,7 +49,8 @@ def _scene(args: argparse.Namespace) -> SceneFile:
     if path in scenes.names() or PurePath(path).suffix.lower() == ".toml":
         if args.hull or args.coplanar_within is not None:
             raise UsageError(
-                "--hull and --coplanar-within need a file of faces or points; a scene file has fields for them"
+                "--hull and --coplanar-within need a file of faces or points; "
+                "in a scene file, set hull and coplanar_within"
             )
         return scenes.scene(path) if path in scenes.names() else scenes.read(path)
     within = None if args.coplanar_within is None else parse_distance(args.coplanar_within)

@@ -80,7 +80,7 @@ def _compared(
     try:
         return diverge(program, deck, options.numbers, reference, options, operator=lambda: _operator(answers))
     except DeckError as error:
-        print_notes([f"note: digits were not compared: {error}"])
+        print_notes([f"note: the digits that {options.numbers.name} loses were not counted: {error}"])
         return None
 
 

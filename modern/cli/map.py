@@ -58,8 +58,8 @@ def capacity_line(program: Program, core: int) -> str:
     points = largest(program, core)
     arrays = f"  with arrays of {' and '.join(array_lengths(program))} fields"
     if points:
-        return f"{arrays} about {points} points would fit; the thesis limits N to {MAX_POINTS}"
-    return f"{arrays} the program does not fit"
+        return f"{arrays}, about {points} points would fit; the thesis limits N to {MAX_POINTS}"
+    return f"{arrays}, the program does not fit"
 
 
 def _line(name: str, kind: str, size: int, first: int, core: int) -> str:

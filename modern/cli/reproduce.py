@@ -219,7 +219,7 @@ def _summary_lines(
     has_results = reports or theorems or paper_findings
     verdict = "printed result is reproduced" if has_results else "statement has its recorded verdict"
     has_exceptions = all_agree and any(finding.excused for finding in paper_findings)
-    exceptions = ", or the reason why it cannot be is stated" if has_exceptions else ""
+    exceptions = ", or a reason is given why it cannot be reproduced" if has_exceptions else ""
     yield f"{_OVERALL[not all_agree]} {'other ' if left_out else ''}{verdict}{exceptions}."
 
 

@@ -30,7 +30,7 @@ def main(args: argparse.Namespace) -> int:
         source = source_deck(args)
         jobs = [(compile_deck(source), input_deck(args, Deck(source.source, parse(source).data)))]
     elif not args.operator or args.operator == "none":
-        raise UsageError("PROGRAM.f is missing; name a program, or a log that names one with --operator=FILE")
+        raise UsageError("PROGRAM.f is missing; name a program, or add --operator=FILE with a log that names one")
     refusals = Refusals()
     failure: EmulatorError | None = None
     results: list[tuple[Program, Result]] = []
@@ -103,6 +103,6 @@ def input_deck(args: argparse.Namespace, data: Deck) -> Deck:
         return deck_for(args.program, args.deck) if args.deck else Deck("no deck", ())
     span = f"cards {data.cards[0].number} to {data.cards[-1].number}, after END"
     if args.deck:
-        raise UsageError(f"{data.source}: {span}, are data; remove them to read {args.deck}")
+        raise UsageError(f"{data.source}: {span}, are data; remove them if the program should read {args.deck}")
     print_notes([f"{data.source}: {span}, are read as the data"])
     return data

@@ -66,7 +66,7 @@ def _fill(args: argparse.Namespace) -> None:
     print_notes(notes)
     print(f"{volume.source}: {counted(volume.count, 'voxel')}")
     print(f"filled hull of the voxels' centres ({hull.kind}): {counted(hull.voxels, 'voxel')}")
-    print(f"solidity {hull.solidity}, in voxels; convex deficiency: {counted(hull.deficiency, 'voxel')}")
+    print(f"solidity, counted in voxels: {hull.solidity}; convex deficiency: {counted(hull.deficiency, 'voxel')}")
     if args.output is not None:
         print_notes(printable(note) for note in volumes.array_note(args.output, volume))
 

@@ -114,7 +114,7 @@ def run_programs(options: argparse.Namespace) -> int:
         comparison = compare(name, program, deck, operator)
         differences = list(comparison.differences())
         cards, lines = map(len, comparison.emulator)
-        print(f"{name}: {cards} cards, {lines} lines, {len(differences)} different {comparison.error}".rstrip())
+        print(f"{name}: {cards} cards and {lines} typed lines, {len(differences)} differ {comparison.error}".rstrip())
         for pair in differences:
             print("  library  [{}]\n  emulator [{}]".format(*pair))
         exit_code = exit_code or int(bool(differences or comparison.error))
@@ -126,14 +126,14 @@ def run_measure(options: argparse.Namespace) -> int:
     deck, vectors = object_deck(), load()
     again = measure([(vector.statement, vector.cards) for vector in vectors], deck)
     changed = sum(not same(first.outcome, second.outcome) for first, second in zip(vectors, again, strict=True))
-    print(f"{len(vectors)} stored statements: {changed} have other results on the library now")
+    print(f"{len(vectors)} stored statements: {changed} no longer have their stored results on the library")
     for draw in (at_random, fields_at_random):
         again += measure(list(islice(draw(options.seed), options.random)), deck)
     wrong = [vector for vector in again if not same(emulate(vector.statement, cards=vector.cards), vector.outcome)]
-    print(f"{len(again)} statements: {len(wrong)} have other results in the emulator than on the library")
+    print(f"{len(again)} statements: {len(wrong)} have different results in the emulator and on the library")
     operations = arithmetic.at_random(options.seed, options.random)
     results = list(arithmetic.different(operations, deck)) if operations else []
-    print(f"{len(operations)} operations: {len(results)} have other results in the emulator than on the library")
+    print(f"{len(operations)} operations: {len(results)} have different results in the emulator and on the library")
     for vector in wrong:
         print(vector.line())
     for result in results:

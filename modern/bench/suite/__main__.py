@@ -50,7 +50,7 @@ def main(names: Sequence[str]) -> int:
     if unknown:
         print(f"bench: unknown group {unknown[0]!r}; expected some of {', '.join(GROUPS)}", file=sys.stderr)
         return 2
-    print(f"median of {RUNS} runs, in parentheses the least and the greatest time")
+    print(f"times: the median of {RUNS} runs, and in parentheses the shortest and the longest")
     for name in names or GROUPS:
         for line in GROUPS[name]():
             print(line, flush=True)

@@ -79,7 +79,7 @@ def cgal(folder: Path) -> Peer:
     command_of_cxx = shlex.split(os.environ.get("CXX", ""))
     command = command_of_cxx or next(([name] for name in COMPILERS if shutil.which(name)), [])
     if not command or not shutil.which(command[0]):
-        raise Missing(f"no C++ compiler is installed ({', '.join(COMPILERS)}, or CXX)")
+        raise Missing(f"expected a C++ compiler ({', '.join(COMPILERS)}, or the value of CXX), found none")
     source, program = folder / "hull.cpp", folder / "hull"
     source.write_text(CGAL, encoding="ascii")
     for libraries in _LIBRARIES:

@@ -25,7 +25,8 @@ def diff(parser: ArgumentParser) -> None:
     shared.epsilon_argument(
         parser,
         "use",
-        "in the layer epsilon and in the port; rel:E, which only the port accepts, scales it to each equation",
+        "in the layer epsilon and in the port; with rel:E, which only the port accepts, e is E times the largest "
+        "coefficient A, B or C of an equation",
     )
     shared.json_argument(parser, "comparison")
     add(parser, {"--explain": "if a program gives no hull, explain the reason"})

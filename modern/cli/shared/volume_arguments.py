@@ -58,7 +58,7 @@ def octree_hull(parser: ArgumentParser) -> None:
     tables = {
         "--tables": "print the floor and the ceiling (the lowest and the highest voxel of each column), their reduced "
         "sets (the voxels that can be vertices), and every face (default: a summary)",
-        "--trace": "print the tables of --tables, and for each edge taken from the queue the resulting face, or none",
+        "--trace": "print the tables of --tables, and for each edge taken from the queue the face found at it, if any",
     }
     add(parser, tables)
     result_file_argument(

@@ -45,8 +45,8 @@ MESSAGES = [
     ("five digits", ["I=12345", "END"], 1, 0, "more than four digits"),
     ("constant too large", ["X=1.E99", "END"], 1, 0, "out of range"),
     ("constant too small", ["X=1.E-101", "END"], 1, 0, "out of range"),
-    ("label twice", ["5 A=1.", "5 B=1.", "END"], 2, 0, "statement number 5 stands on card 1 already"),
-    ("label and FORMAT", ["5 A=1.", "5 FORMAT(I4)", "END"], 2, 0, "stands on card 1 already"),
+    ("label twice", ["5 A=1.", "5 B=1.", "END"], 2, 0, "statement number 5 is already used on card 1"),
+    ("label and FORMAT", ["5 A=1.", "5 FORMAT(I4)", "END"], 2, 0, "already used on card 1"),
     ("DO not closed", ["DO 5 I=1,3", "X=1.", "END"], 1, 0, "number 5, is missing"),
     ("DO ends before", ["5 X=1.", "DO 5 I=1,3", "END"], 2, 0, "number 5, is before the DO"),
     ("DO ends on itself", ["5 DO 5 I=1,3", "END"], 1, 0, "number 5, is before the DO"),
@@ -90,7 +90,9 @@ def test_columns(line: str, column: int) -> None:
 
 def test_messages_follow_the_order_of_cards() -> None:
     lines = ["DO 5 I=1,3", "DO 6 J=1,3", "5 X=1.", "6 Y=1.", "END"]
-    assert any("must end inside the DO that ends with 5" in d.message and d.card == 2 for d in errors(*lines))
+    assert any(
+        "must end before the end of the DO around it, statement 5" in d.message and d.card == 2 for d in errors(*lines)
+    )
     found = errors("GO TO 7", "X=", "I=A+1", "Y=Z(3)", "END")
     assert [d.card for d in found] == [2, 3, 4]  # where a card does not parse, jumps are not judged
     assert [d.card for d in errors("GO TO 7", "I=A+1", "END")] == [1, 2]

@@ -16,7 +16,8 @@ def warnings(*lines: str) -> list[tuple[int, str]]:
 
 
 def test_jumps_into_a_do_are_warnings() -> None:
-    jump = "this jump to 4 enters the range of the DO on card 1; the DO continues with the old value of I"
+    jump = "this jump to statement 4 enters the loop of the DO on card 1 from outside; "
+    jump += "the loop continues with the value that I has at the jump"
     assert warnings(*LOOP, "GO TO 4") == [(6, jump)]
     # KNOWN-FAULTS 8 (to 184) and 9 (to 138).  Program 3 jumps to 133, which leaves its DO at once.
     reported = [translate(deck(name, ()))[1] for name in ("program1", "program2", "program3")]

@@ -50,7 +50,7 @@ def test_statement_that_reaches_column_73_gives_one_warning() -> None:
     long = "JK=1" + "+2" * 33 + "+12"
     (message,) = diagnostics(long[:70].ljust(72) + "NAME", long, "  " + long, "END")
     assert (message.card, message.column, message.warning) == (2, 73, True)
-    assert message.message.startswith("columns 73 to 80 are identification and not read")
+    assert message.message.startswith("columns 73 to 80 hold the identification of the card and are not read")
     assert message.message.endswith("(also on card 3)")
     assert diagnostics("X=1.".ljust(72) + "BUTL0010", "C" * 80, "END") == ()
 

@@ -67,7 +67,7 @@ def test_a_decision_that_the_reference_cannot_make_ends_the_comparison(values: b
     divergence = compared(*DECISION, names=("exact", "float64"), values=values)
     assert (divergence.tested, divergence.decisions, divergence.first_decision) == (1, 0, None)
     assert divergence.apart == (
-        "at card 4 the value in float64 is -2.7755575615628914e-17, which rounding may have changed by 1E-16; "
+        "at card 4 the tested value is -2.7755575615628914e-17 in float64, and rounding may have changed it by 1E-16; "
         "compare with exact arithmetic, or with more digits"
     )
     raw = compared(*DECISION, names=("exact", "float64"), rounding=False, values=values)

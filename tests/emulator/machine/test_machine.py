@@ -41,7 +41,7 @@ def test_an_empty_hopper_ends_a_run_only_between_data_sets() -> None:
         run(*lines, data=["   2", "   5"])
     assert str(caught.value) == (
         "data.cards: card 2, column 1: the deck ends in the middle of a data set; "
-        "another card is read by statement 2 (card 3) of deck.f"
+        "statement 2 (card 3) of deck.f needs another card"
     )
 
 

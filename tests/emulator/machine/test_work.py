@@ -83,7 +83,7 @@ def test_an_operation_far_beyond_the_limit_is_not_done(statement: str, monkeypat
     ending = costly_machine.run().ending
     assert (ending.kind, ending.line and ending.line.label, ending.normal) == ("limit", 7, False)
     assert ending.message == (
-        f"deck.f: card 2: the limit is the work of 50 statements, and one operation would exceed it, in 7 {statement}; "
+        f"deck.f: card 2: one operation would exceed the limit, the work of 50 statements, in 7 {statement}; "
         "use a larger --limit or numbers of fewer digits"
     )
 
@@ -91,7 +91,7 @@ def test_an_operation_far_beyond_the_limit_is_not_done(statement: str, monkeypat
 def test_the_message_about_a_costly_loop_gives_the_work() -> None:
     ending = machine("A=.5", "1 B=EXP(A)", "GO TO 1", "END", limit=1_000).run().ending
     assert ending.message == (
-        "deck.f: stopped after the work of 1000 statements, 469 of it for costly operations; "
+        "deck.f: stopped after the work of 1000 statements, of which costly operations account for 469; "
         "the last statements form a loop on cards 2 to 3, statement 1"
     )
 

@@ -25,7 +25,7 @@ def test_tables_work_without_peers(tmp_path: Path, monkeypatch) -> None:
     assert available == {}
     assert remarks == [
         "Qhull is omitted: scipy is not installed",
-        "CGAL is omitted: no C++ compiler is installed (c++, g++, clang++, or CXX)",
+        "CGAL is omitted: expected a C++ compiler (c++, g++, clang++, or the value of CXX), found none",
     ]
     table = hulls.table("eight points", POINTS, {"judge": lambda: None}, available)
     assert table.lines()[0].split() == ["eight", "points", "seconds"]

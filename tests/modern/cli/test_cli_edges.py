@@ -210,9 +210,9 @@ def test_draw_writes_png_and_pdf(ending: str, room: Path, capsys, monkeypatch) -
     [
         ("voxel-hull labels.npy --spacing=-1,1,1", "spacing: expected positive numbers, found -1"),
         ("study many.toml", "many.toml: line 1: samples: expected an integer of at least 1, found 'many'"),
-        ("study digits.toml", "digits.toml: a number has 10000 digits (at line 1, column 11)"),
+        ("study digits.toml", "digits.toml: a number has too many digits, 10000 (at line 1, column 11)"),
         ("study deep.toml", "deep.toml: the text is nested too deeply"),
-        ("hidden-line digits.toml", "digits.toml: line 1, column 11: a number has 10000 digits"),
+        ("hidden-line digits.toml", "digits.toml: line 1, column 11: a number has too many digits, 10000"),
         ("diff long.npy", "long.npy: row 1, x: 4901 digits; at most 4000 are read"),
         ("voxel-hull device.mhd", "device.mhd: /dev/zero: expected a regular file"),
         ("hull mine.toml/3", "mine.toml/0/3: study mine.toml has cells 0 to 0, samples 0 to 2"),

@@ -142,7 +142,7 @@ def test_all_errors_are_explained_at_once(capsys) -> None:
     [
         (("--explain", "3"), "--explain: unknown error 3; expected all, or one of 5, 6, 7,"),
         (("--explain", ""), "--explain: unknown error ; expected all, or one of 5, 6, 7,"),
-        (("--explain", "5", "large.f"), "--explain: expected an error number without a program"),
+        (("--explain", "5", "large.f"), "--explain: expected only an error number, found also a program"),
         ((), "check: expected a program, or --explain with an error number"),
     ],
 )
@@ -193,7 +193,8 @@ def test_export_job_writes_a_folder_and_names_the_changes(capsys) -> None:
     )
     assert (code, out) == (
         0,
-        "job: 282 cards of the program, 10 of data, 2 changes; README.txt says how to run the job\n",
+        "job: 282 cards of the program, 10 of data, 2 changes for the old compiler; "
+        "README.txt says how to run the job\n",
     )
     names = ["README.txt", "check.py", "data.cards", "expected.cards", "job.ini", "program.cards"]
     assert sorted(path.name for path in job.iterdir()) == names

@@ -157,7 +157,7 @@ def test_selected_labels_have_rows_for_centres_and_filled_hulls(capsys) -> None:
 def test_a_filled_hull_keeps_the_position_of_the_scan(capsys) -> None:
     code, out, err = call(capsys, "voxel-hull", "scan.nrrd", "--label", "7", "--fill", "-o", "filled.nrrd")
     assert (code, "note" in err) == (0, False)
-    assert out.endswith("polyhedron): 81 voxels\nsolidity 80/81, in voxels; convex deficiency: 1 voxel\n")
+    assert out.endswith("polyhedron): 81 voxels\nsolidity, counted in voxels: 80/81; convex deficiency: 1 voxel\n")
     assert read_volume("filled.nrrd").world == WORLD
     call(capsys, "octree-hull", "scan.nrrd", "--label", "7", "-o", "octree.nrrd")
     assert Path("octree.nrrd").read_bytes() == Path("filled.nrrd").read_bytes()

@@ -80,7 +80,10 @@ def test_unknown_and_disputed_decisions_are_reported(program: Path, capsys) -> N
         (["--runs", "1"], "--runs: expected 2 to 1000 runs, found 1"),
         (["--seed", "-1"], "--seed: expected 0 to 4294967286 for 10 runs, found -1"),
         (["--seed", "4294967287"], "--seed: expected 0 to 4294967286 for 10 runs, found 4294967287"),
-        (["--arithmetic", "stochastic:8:1-3", "--runs", "5"], "stochastic:8:1-3 already says how many runs there are"),
+        (
+            ["--arithmetic", "stochastic:8:1-3", "--runs", "5"],
+            "stochastic:8:1-3 already states the number of runs and their seeds",
+        ),
         (["--csv", "-", "--html", "-"], "only one of --csv, --html and --samples can be standard output"),
         (["--arithmetic", "none"], "no arithmetic is called 'none'"),
     ],

@@ -194,7 +194,7 @@ def test_export_writes_every_format(room: Path, capsys) -> None:
 
 # arguments, words of the message
 BAD_ARGUMENTS = [
-    (("export", "t.csv"), "export: name a file with -o, or for standard output a format with --format"),
+    (("export", "t.csv"), "export: add -o FILE, or add --format to write to standard output"),
     (("export", "t.csv", "-o", "t.dxf"), "t.dxf: the name must end with one of .off, .obj, .ply, .stl, .json, .html"),
     (("export", "t.csv", "-o", "none/t.off"), "none/t.off: no such file or directory"),
     (("export", "none.csv", "-o", "t.off"), "none.csv: no such file or directory"),

@@ -256,7 +256,7 @@ def test_merged_faces_match_the_faces_of_the_file(folder: Path, capsys) -> None:
         (("--star-of", "1-2", "--map", "-o", "a.svg"), "not allowed with argument"),
         (("--eye", "1,2,3"), "--eye applies only to a picture"),
         (("--eye", "1,2,3", "-o", "a.off"), "--eye applies only to a picture"),
-        (("--eye", "1,2,3", "--map", "-o", "a.svg"), "--eye applies only to the solid"),
+        (("--eye", "1,2,3", "--map", "-o", "a.svg"), "--eye applies only to a picture of the solid"),
         (("--eye", "1,2", "-o", "a.svg"), "the direction of view: expected 3 numbers X,Y,Z, found 2"),
         (("--width", "5", "-o", "a.svg"), "5 pixels wide"),
         (("--width", "500"), "--width applies only to a picture"),

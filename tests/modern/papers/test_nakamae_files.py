@@ -113,7 +113,8 @@ def test_the_command_draws_files_with_faces(folder: Path, capsys) -> None:
     code, _, err = call(capsys, "hidden-line", "house", "--hull")
     assert (code, err) == (
         2,
-        "hull1620: --hull and --coplanar-within need a file of faces or points; a scene file has fields for them\n",
+        "hull1620: --hull and --coplanar-within need a file of faces or points; "
+        "in a scene file, set hull and coplanar_within\n",
     )
 
 

@@ -101,7 +101,7 @@ def test_the_command_reports_every_verdict(paper: published.Paper, tmp_path: Pat
     assert out.startswith(paper.title)
     assert all(f"{count} {kind}" in out for kind, count in kinds.items())
     assert all(finding.result.cannot in out and finding.result.differs in out for finding in verdicts)
-    assert out.endswith("Every printed result is reproduced, or the reason why it cannot be is stated.")
+    assert out.endswith("Every printed result is reproduced, or a reason is given why it cannot be reproduced.")
     document = json.loads(path.read_text())["papers"]
     assert [(entry["result"], entry["verdict"]) for entry in document] == [(f.result.id, f.kind) for f in verdicts]
 
