@@ -315,7 +315,7 @@ def put_typed(line: Row, length: int, marks: Marks, desk: Desk) -> int:
 
 
 def stamp(number: int, desk: Desk) -> None:
-    """Append the last STAMP digits of a number to the log."""
+    """Append a number to the log as STAMP (six) digits: the number of a statement or of a decision."""
     used = desk.devices[USED]
     for k in range(STAMP):
         desk.log[used + STAMP - 1 - k] = DIGIT + number % 10

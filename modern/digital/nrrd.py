@@ -234,7 +234,7 @@ def _steps(
             tuple(number if k == axis else zero for k in range(dimension)) for axis, number in enumerate(numbers)
         )
     if any(word != "nan" for word in words):
-        raise VolumeError(f"{source}: line {spacing_line}: spacings and space directions state different steps")
+        raise VolumeError(f"{source}: line {spacing_line}: expected no spacings, because space directions state them")
     line, text = fields["space directions"]
     if _NOT_SPATIAL.search(text):
         return line, None

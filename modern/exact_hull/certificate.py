@@ -160,7 +160,7 @@ def _check_points(hull: ExactHull) -> Planes:
         )
     for index in sorted(on_facets.symmetric_difference(hull.boundary)):
         where = "on" if index in on_facets else "not on"
-        raise CertificateError(f"point {index} is {where} a facet, which contradicts its class")
+        raise CertificateError(f"point {index} is {where} a facet, but the hull states the opposite")
     for index, around in normals.items():
         require(
             rank(around) == hull.dimension,

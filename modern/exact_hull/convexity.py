@@ -233,7 +233,7 @@ class _Proof:
             raise CertificateError(f"point {points[row]} is outside of facet {facets[row]}")
         for row in np.flatnonzero(signs != expected):
             where = "not on" if signs[row] else "on"
-            raise CertificateError(f"point {points[row]} is {where} a facet, which contradicts its class")
+            raise CertificateError(f"point {points[row]} is {where} a facet, but the hull states the opposite")
 
     def _located(self, away: Floats) -> tuple[Ints, NDArray[np.bool_]]:
         """Return, for each point, the triangle whose cone contains it, and True if float64 proves this."""

@@ -1,4 +1,4 @@
-"""The arrays of the compiled program 3: points, planes, counters, and small operations on them.
+"""The arrays of the port of program 3 that numba compiles: points, planes, counters, and small operations on them.
 
 A plane occupies a *slot*, an index of the arrays, in the order of the table of planes. The slot of a deleted plane
 stays empty until :func:`pack`.

@@ -193,7 +193,7 @@ def crate(about: Work, parts: Mapping[str, Part], processes: Sequence[Process]) 
 
 
 def _rights(licence: str) -> str:
-    """Return the id of a licence in the crate: its address, or an id made from the sentence about the rights."""
+    """Return the id of a licence in the crate: its address, or an id made from its text if it has no address."""
     return licence if licence.startswith("https:") else "#" + re.sub(r"\W+", "-", licence.lower()).strip("-")[:60]
 
 

@@ -102,7 +102,7 @@ def moved(shift: Vector) -> Move:
 
 
 def placed(polyhedron: Polyhedron, move: Move, name: str) -> Polyhedron:
-    """Return a polyhedron, with its figures, moved by ``move`` and renamed."""
+    """Return a polyhedron, with the figures on its faces, renamed and with each corner moved by ``move``."""
     figures = tuple(Figure(f.face, tuple(map(move, f.corners))) for f in polyhedron.figures)
     return replace(polyhedron, name=name, vertices=tuple(map(move, polyhedron.vertices)), figures=figures)
 

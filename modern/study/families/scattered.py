@@ -20,7 +20,8 @@ def integers(draw: Draw, digits: int, n: Count) -> Drawn:
 def box(draw: Draw, most: int, n: Count, centre: int = 0) -> Drawn:
     """Points whose coordinates are random integers from centre - most to centre + most."""
     if not isinstance(most, int) or not isinstance(centre, int) or most < 1 or abs(centre) + most > size_of(DIGITS):
-        raise FamilyError(f"most = {most} around centre = {centre} gives more digits than a card holds ({DIGITS})")
+        given = f"found most = {most} and centre = {centre}"
+        raise FamilyError(f"expected integers, most of at least 1, and coordinates of at most {DIGITS} digits, {given}")
 
     def point() -> Whole:
         x, y, z = (draw.whole(centre - most, centre + most) for _ in range(3))

@@ -94,7 +94,7 @@ def test_ignored_fields_are_noted(fields: tuple[str, ...], note: str) -> None:
         (("space directions: (1,0,0) (0,1,0) (1,1,0)",), "the directions of the axes are linearly dependent"),
         (
             ("spacings: 1 1 1", "space directions: (1,0,0) (0,1,0) (0,0,1)"),
-            "spacings and space directions state different steps",
+            "expected no spacings, because space directions state them",
         ),
         (
             ("spacings: 1 1 1", "space origin: (1,2)"),

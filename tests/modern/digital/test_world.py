@@ -162,7 +162,7 @@ def test_volumes_need_a_step_for_every_axis_and_pictures_in_space_have_no_area()
     world = world_of(2, directions=[(1, 0, 1), (0, 1, 0)])
     with pytest.raises(VolumeError, match="2 axes in a space of 3 dimensions"):
         voxel_volume(world)
-    with pytest.raises(VolumeError, match="expected 3 steps of the position, found 2"):
+    with pytest.raises(VolumeError, match="expected 3 spacing vectors, one for each axis of the array, found 2"):
         Volume(np.ones((1, 1, 1), np.bool_), (0, 0, 0), world=world_of(2, (1, 1)))
     with pytest.raises(VolumeError, match="a Volume has its own position"):
         hull_of_voxels(Volume(np.ones((1, 1, 1), np.bool_), (0, 0, 0)), spacing=(1, 1, 1))

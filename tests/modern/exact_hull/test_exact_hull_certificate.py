@@ -123,7 +123,7 @@ def moved(index: int, taken_from: str, given_to: str) -> Callable[[ExactHull], E
 
 # Points, a change of their hull that no change of a single number makes, and a part of the message.
 CHANGES = {
-    "a face is missing, so the points in it lie in no plane": (GRID, with_facet(TOP, None), "contradicts its class"),
+    "a face is missing, so the points in it lie in no plane": (GRID, with_facet(TOP, None), "states the opposite"),
     "a face is missing, so two planes do not determine a corner": (
         CUBE,
         with_facet(TOP, None),
@@ -318,5 +318,5 @@ def test_a_horizon_that_is_not_a_simple_cycle_raises_an_error(monkeypatch, times
 
 def test_a_construction_that_calls_boundary_points_inside_is_refused(monkeypatch) -> None:
     monkeypatch.setattr(build_module, "_on_facets", lambda points, facets: np.empty(0, int))
-    with pytest.raises(CertificateError, match="which contradicts its class"):
+    with pytest.raises(CertificateError, match="but the hull states the opposite"):
         exact_hull(GRID)
