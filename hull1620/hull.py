@@ -226,13 +226,13 @@ class Hull:
         Raises
         ------
         ExportError
-            The distance is invalid, or too large for this solid, as ``modern.geometry.coplanar`` defines.
+            The distance is invalid, or it is too large for this solid.
 
         Notes
         -----
-        ``modern.geometry.coplanar`` defines which faces are joined.  ``record.coplanar`` of the result has the number
-        of faces before joining, the largest distance of a vertex from its plane, and the smallest distance with which
-        more faces would be joined.
+        ``modern.geometry.coplanar`` defines which faces are joined, and which distances are too large.
+        ``record.coplanar`` of the result has the number of faces before joining, the largest distance of a vertex from
+        its plane, and the smallest distance with which more faces would be joined.
         """
         return Hull(coplanar(self.record, within)[0])
 

@@ -89,7 +89,7 @@ class Forms(NamedTuple):
 
 
 class Cards(NamedTuple):
-    """The cards of all decks in one array, with 80 character codes for each card, and the first card of each deck."""
+    """The cards of all decks, each as 80 character codes, and the index of the first card of each deck."""
 
     columns: Row
     first: Row
@@ -188,7 +188,7 @@ def to_field(marks: Marks, forms: Forms, cards: Cards, desk: Desk, repeat: bool)
 
 
 def text(place: int, width: int, cards: Cards, desk: Desk) -> int:
-    """On output, write the text of an H or X field.  On input, the card's columns become its text (C26-5619 p. 37)."""
+    """On output, write the text of an H or X field.  On input, store card columns as this text (C26-5619 p. 37)."""
     devices = desk.devices
     column = devices[COLUMN]
     devices[COLUMN] += width

@@ -349,8 +349,8 @@ class _Translation:
             do = self.open_dos.pop()
             self.opened[do.label] -= 1
             if do.label != statement.label:
-                what = f"this DO ends with statement {do.label}, but must end before the end of the DO around it"
-                self._error(do.place, f"{what}, statement {statement.label}")
+                what = f"this DO ends with statement {do.label}, but must not end after the DO around it"
+                self._error(do.place, f"{what}, which ends with statement {statement.label}")
                 continue
             self.emitter.count(do.statement, False, "closing of the DO")
             self.emitter.emit(op.DOTEST, address=do.loop)

@@ -237,8 +237,8 @@ class Emitter:
 
         ``waiting`` is the left operand while it is in a storage field and not in the accumulator.  A right operand that
         must be computed needs the accumulator, so the left operand stays in a field, if necessary a temporary one, and
-        is then combined with the accumulator.  ``minus`` is True if the code holds the negative of the left operand,
-        ``negative`` if it holds that of the right operand.
+        is then combined with the accumulator.  ``minus`` is True if the field or the accumulator holds the negative of
+        the left operand.  ``negative`` is the same for the right operand.
         """
         first, minus = _unsigned(expression.first)
         minus ^= isinstance(expression, Sum) and expression.minus

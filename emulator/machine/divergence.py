@@ -269,7 +269,7 @@ def _reached(entries: Iterator[Entry], junction: int) -> bool:
 
 
 def _ended(runs: list[JournaledRun], entry: Entry | None, reference_entry: Entry | None) -> str:
-    """Describe the endings of the runs whose journals have no further entry, or return "" if both ended equally."""
+    """Describe the endings of the runs whose journals have no further entry, or return "" if both endings are equal."""
     if entry is None and reference_entry is None and runs[0].ending == runs[1].ending:
         return ""
     stopped = [run for run, last in zip(runs, (entry, reference_entry), strict=True) if last is None]

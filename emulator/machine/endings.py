@@ -102,7 +102,7 @@ def _trouble_in(ending: Ending, line: Line) -> str:
     there = f"in {line.label} {line.text}" if line.label else f"in {line.text}"
     match ending.kind:
         case "limit":
-            work = f"one operation would exceed the limit, the work of {ending.count} statements, {there}"
+            work = f"one operation would exceed the limit (the work of {ending.count} statements), {there}"
             return f"{work}; use a larger --limit or numbers of fewer digits"
         case "bounds":
             subscripts, shape = (",".join(map(str, numbers)) for numbers in (ending.subscripts, ending.shape))

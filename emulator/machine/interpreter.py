@@ -86,7 +86,8 @@ def run(
     Raises
     ------
     Undecided
-        If the arithmetic cannot determine the sign that an IF tests.  ``state.at`` is then the instruction of the test.
+        If the arithmetic cannot represent the result of an operation, or cannot determine the sign that an IF tests.
+        ``state.at`` is then an instruction of the statement at fault.
     """
     operations, addresses, subscripts, seconds, _, targets, loops, begins, charges, size = code
     # While the loop runs the registers are local variables, which are faster than attributes of the state.

@@ -86,7 +86,7 @@ PUNCHED = "PUNCHED"
 
 
 def read_loads(name: str, text: str) -> tuple[list[Load], dict[str, str]]:
-    """Return the parts of an operator's file, one for each machine, and the decks in it, each as text under its name.
+    """Return the parts of an operator's file, one for each machine, and the file's decks as a dict from name to text.
 
     ``LOAD`` with the names of a program and a deck begins the lines of a machine.  ``CARDS`` with a name begins a deck,
     and each ``CARD`` line holds one of its cards.  Raise FileError if the file is invalid.
@@ -171,7 +171,9 @@ class FromFile(Operator):
         wrong = ("START", "ATTN") if halt.what == "accept" else ("ENTER", "ATTN")
         if line.at is not None or line.action.word in wrong:
             action_text = action_line(line.action, line.at)
-            raise OperatorError(f"{self.name}: line {line.number}: found {action_text}, but {halt_line(halt)}")
+            raise OperatorError(
+                f"{self.name}: line {line.number}: found {action_text}, which does not fit the halt: {halt_line(halt)}"
+            )
         return self._next_action(session)
 
     def _next_action(self, session: Session) -> Action:

@@ -99,8 +99,9 @@ class Result:
     characters_typed
         The characters typed, counting the end of a line as one.
     numbers
-        Pairs of a text and a count.  For E fields, the text ``E<`` stands for the numbers read, ``E>`` for those
-        written; ``F<`` or ``I>`` stand for the numbers in other kinds of fields.
+        The counts of the numbers read and written, as pairs of a text and a count.  The text is the letter of the kind
+        of field, followed by ``<`` for numbers read or ``>`` for numbers written.  For example, ``("E<", 5)`` means
+        that 5 numbers were read from E fields.
     uncut
         With the option ``uncut``, the floating-point numbers of each punched card with all their digits.
     """

@@ -3,7 +3,7 @@
 A run is recorded once in the machine's own arithmetic.  If the operations are repeated in another arithmetic, they
 follow the branches that the machine took, even if the other arithmetic would decide differently.  So each decision can
 be judged separately: the value that it tests is known in every arithmetic, after the same operations (synchronous
-execution; J.  Vignes, A stochastic arithmetic for reliable scientific computation, Math. Comput. Simulation 35 (1993)
+execution; J. Vignes, A stochastic arithmetic for reliable scientific computation, Math. Comput. Simulation 35 (1993)
 233-261).
 
 The tape holds sums, differences, products, quotients and changes of sign.  Numbers read from cards, constants and

@@ -31,9 +31,10 @@ _FORMS = {
 
 
 def read_action(line: str) -> tuple[int | None, Action]:
-    """Read a line of an operator's file.  Return the number n of ``AT n`` at its beginning, or None, and the action.
+    """Read a line of an operator's file.  Return the amount of work after which to act, or None, and the action.
 
-    Raise ValueError with a message for an invalid line.
+    The amount of work is the number n of ``AT n`` at the beginning of the line.  Raise ValueError with a message for an
+    invalid line.
     """
     word, *operands = line.split() or [""]
     if word == "ENTER":

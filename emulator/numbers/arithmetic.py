@@ -62,7 +62,7 @@ class Rules(NamedTuple):
 
 
 def drawn(rules: Rules, count: int) -> Rules:
-    """Return a copy of the rules that holds the random number for a run's operation number ``count``, from 1 on."""
+    """Return a copy of the rules with the random number for operation ``count`` of a run, counted from 1."""
     digits, limit, least, guard, sticky, sums, products, quotients, as_1962, random, key, _ = rules
     number = draw(key, count)
     return Rules(digits, limit, least, guard, sticky, sums, products, quotients, as_1962, random, key, number)

@@ -45,7 +45,7 @@ def key_of(seed: int) -> int:
 
 
 def draw(key: int, count: int) -> int:
-    """Return the random number for a run's operation number ``count``, from the key of the run's seed."""
+    """Return the random number for operation ``count`` of a run, counted from 1.  ``key`` belongs to the run's seed."""
     return mix(mix(count & 0xFFFFFFFF) ^ key) * DRAWS >> 32
 
 

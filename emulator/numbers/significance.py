@@ -5,11 +5,12 @@ Let m be the mean of N values, s their standard deviation (with the divisor N - 
 - *Stott Parker*: the number of digits that the values of the runs have in common, ``-log10(r)`` (D. S. Parker, Monte
   Carlo arithmetic, UCLA CSD-970002, 1997).
 - *CESTAC*: the number of significant digits of the mean, ``log10(sqrt(N) / (r t))``, where t is Student's value for
-  95 % and N - 1 degrees of freedom (J. Vignes, Math. Comput. Simulation 35 (1993) 233-261).  A number with fewer than
-  half a digit is a *computational zero*: no digit of it is significant.  CADNA rounds the estimate to an integer and
-  prints such a number as ``@.0``.  Vignes himself calls a number a computational zero if its estimate is at most 0.
-- *Sohier*: the number of digits of one run that are right with probability 95 %.  The number itself is a lower bound
-  that holds with confidence 95 % if the errors are normally distributed.  It is
+  95 % and N - 1 degrees of freedom (J. Vignes, Math. Comput. Simulation 35 (1993) 233-261).  If the estimate for a
+  number is less than 0.5, the number is a *computational zero*: no digit of it is significant.  CADNA rounds the
+  estimate to an integer and prints such a number as ``@.0``.  Vignes himself calls a number a computational zero if its
+  estimate is at most 0.
+- *Sohier*: a lower bound, with confidence 95 %, on the number of digits of one run that are right with probability
+  95 %.  The errors are assumed to be normally distributed.  The bound is
   ``-log10(r) - log10((N - 1) / c) / 2 - log10(z)``, where c is the 2.5 % quantile of the chi-square distribution and z
   the 97.5 % quantile of the normal one (D. Sohier et al., Confidence intervals for stochastic arithmetic, ACM Trans.
   Math. Softw. 47 (2021) 10, section 4).  The package ``significantdigits`` computes s with N instead of N - 1, so its
@@ -66,7 +67,7 @@ def estimate(values: Sequence[Fraction | int | None], digits: float) -> Estimate
 
 
 def _float(value: Fraction) -> float:
-    """Return a deviation relative to the mean as a float.  A larger one than 1E100 becomes 1E100."""
+    """Return a deviation relative to the mean as a float, limited to 1E100 to prevent an overflow."""
     return float(value) if abs(value) < 10**100 else 1e100
 
 

@@ -100,7 +100,10 @@ def differences(expected: str, punched: str) -> list[str]:
 
 
 def compare(expected_name: str, punched_name: str) -> int:
-    """Print the differences of two decks by class.  Return 1 for an unknown class, another order or no punched card."""
+    """Print the differences of two decks by class.
+
+    Return 1 if the class of a difference is ``order`` or ``other``, or if no card was punched, else 0.
+    """
     expected, punched = deck(expected_name), [card[:77].rstrip() for card in deck(punched_name)]
     common = Counter(expected) & Counter(punched)
     classes: Counter[str] = Counter()

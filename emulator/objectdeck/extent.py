@@ -1,8 +1,8 @@
 """The core storage that a program and its data need if IBM's compiler of 1962 compiles the program.
 
 The lengths are those of :mod:`emulator.objectdeck.generator`.  The known object deck does not show every construct, and
-the lengths of IBM's function routines are unknown.  :attr:`Extent.inferred` counts the positions whose need is inferred
-without evidence.  A program is rejected only if it does not fit even without these positions.
+the lengths of IBM's function routines are unknown.  :attr:`Extent.inferred` counts the positions that this module
+assumes to be needed, without evidence.  A program is rejected only if it does not fit even without these positions.
 """
 
 from dataclasses import dataclass

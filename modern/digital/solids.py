@@ -144,7 +144,9 @@ def _ball(name: str, diameter: int, centre: str, half: bool) -> Volume:
     if diameter < 1:
         raise VolumeError(f"{name}: expected a positive integer as the diameter")
     if (diameter + 1) ** 3 > MAX_CELLS:
-        raise VolumeError(f"{name}: expected a diameter of at most {_widest()}: a box has at most {MAX_CELLS} voxels")
+        raise VolumeError(
+            f"{name}: expected a diameter of at most {_widest()}; the box around a ball has at most {MAX_CELLS} voxels"
+        )
     # Along each axis, twice the distance of a voxel from the ball's centre is an integer, even for the centre ``voxel``
     # and odd for ``vertex``.
     shift = 0 if centre == VOXEL else 1

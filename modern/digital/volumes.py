@@ -99,7 +99,10 @@ def read_volume(
 
 
 def read_scan(path: str, stated: Stated | None = None) -> Scan:
-    """Return the values in a file, a DICOM folder or a named ball, from which the caller can select voxels."""
+    """Return the values in a file, a DICOM folder or a named ball, from which the caller can select voxels.
+
+    For ``path`` and the errors raised, see ``read_volume``.
+    """
     stated = stated or Stated()
     ball_name = _BALL.fullmatch(path)
     if ball_name:

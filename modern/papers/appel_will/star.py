@@ -58,8 +58,8 @@ def as_corrected(images: Sequence[Image]) -> bool:
 def in_one_pass(images: Sequence[Image]) -> bool:
     """Return the result of :func:`as_corrected`, computed without sorting the images.
 
-    C is outside if all images lie within an angle of less than 180 degrees. The pass keeps the images at the two ends
-    of the angle that all images examined so far span.
+    C is outside if all images lie within an angle of less than 180 degrees. The pass keeps, as ``first`` and
+    ``last``, the images at the two ends of the angle that all images examined so far span.
     """
     if not images:
         return True

@@ -314,7 +314,7 @@ def cell_list_size(vertices: int, faces: int) -> int:
 
 
 def economical_size(cells: CellList) -> int:
-    """Return the exact number that formula (6) estimates: 3 integers for each vertex, 1 for each corner of a face."""
+    """Return the exact number of integers in a short cell list: 3 for each vertex, and 1 for each corner of a face."""
     return 3 * len(cells.vertices) + sum(len(face.pairs) for face in cells.faces)
 
 

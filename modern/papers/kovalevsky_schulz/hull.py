@@ -67,9 +67,9 @@ def hull_cells(points: Points) -> CellList | Flat:
     of vertices. Each cycle begins with its lowest number.
 
     The paper's procedure finds the same vertices in the same order, and the same faces, on two conditions: it inserts
-    the points in raster order, and it counts a face whose plane contains the new point as visible. A point that is in
-    line or in a plane with later points then disappears, because all faces at this point are visible. Only the
-    numbering of the faces and edges differs.
+    the points in raster order, and it counts a face whose plane contains the new point as visible. A point that
+    is not a vertex of the hull of the points inserted so far then disappears from the polyhedron, because all faces at
+    this point are visible from the new point. Only the numbering of the faces and edges differs.
     """
     # Only the first and the last point of a column (the points with equal x and y) can be vertices of the hull.
     x, y, z = points[np.lexsort(points.T[::-1])].T

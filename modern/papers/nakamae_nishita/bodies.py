@@ -30,9 +30,9 @@ IntPoint = tuple[int, int, int]
 class Reading:
     """The options with which a file of faces is read.
 
-    If ``hull``, each component is replaced by its hull. ``within`` is a distance or None: faces within this distance of
-    one plane are merged. If ``points`` or ``hull``, a file may also contain only points. ``as_hull`` and ``as_within``
-    are the names of the options ``hull`` and ``within`` in messages.
+    If ``hull`` is True, each component is replaced by its hull. ``within`` is a distance or None: faces within this
+    distance of one plane are merged. If ``points`` or ``hull`` is True, a file may also contain only points. Messages
+    name the options ``hull`` and ``within`` by the texts ``as_hull`` and ``as_within``.
     """
 
     hull: bool = False

@@ -47,10 +47,10 @@ def by_formulas(v: Solid, w: Solid, pair: Tables, of_v: Values, of_w: Values) ->
 
 
 def crossing(solid: Solid, order: int, values: list[int]) -> Homogeneous:
-    """Return the point of a contour segment at which a function is zero that is linear along the segment.
+    """Return the point at which a segment of the contour crosses a line in the picture.
 
-    ``values`` has the function's value at each point of the solid: the value of a line's equation, formula (1).
-    ``order`` is the index of the contour segment.
+    ``values`` has the value of the line's equation, formula (1), at each point of the solid. ``order`` is the index of
+    the segment.
     """
     after = (order + 1) % len(solid.contour)
     p, q = solid.images[order], solid.images[after]

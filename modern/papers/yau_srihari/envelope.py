@@ -66,8 +66,8 @@ def chain_above(start: Place, end: Place, points: Grid) -> list[Point]:
 def over_edges(corners: list[Place], points: Grid, whole: bool) -> list[tuple[Point, Point]]:
     """Return the envelope's edges above the border of H(A), the plane hull of the columns' positions, counterclockwise.
 
-    The points above each edge of H(A) lie in an upright plane, and the edges are those of the lower side of their hull.
-    With ``whole``, a single edge above each edge of H(A) replaces these edges, as in the printed procedure.
+    The points above an edge of H(A) lie in an upright plane. The lower side of their hull consists of one or more edges
+    of the envelope, which are returned. With ``whole``, as in the printed procedure, it is replaced by a single edge.
     """
     edges: list[tuple[Point, Point]] = []
     for start, end in zip(corners, corners[1:] + corners[:1], strict=True):

@@ -91,7 +91,8 @@ def test_columns(line: str, column: int) -> None:
 def test_messages_follow_the_order_of_cards() -> None:
     lines = ["DO 5 I=1,3", "DO 6 J=1,3", "5 X=1.", "6 Y=1.", "END"]
     assert any(
-        "must end before the end of the DO around it, statement 5" in d.message and d.card == 2 for d in errors(*lines)
+        "must not end after the DO around it, which ends with statement 5" in d.message and d.card == 2
+        for d in errors(*lines)
     )
     found = errors("GO TO 7", "X=", "I=A+1", "Y=Z(3)", "END")
     assert [d.card for d in found] == [2, 3, 4]  # where a card does not parse, jumps are not judged

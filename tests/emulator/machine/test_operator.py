@@ -119,13 +119,21 @@ def test_an_error_in_a_line_names_file_and_line(line: str, message: str) -> None
 @pytest.mark.parametrize(
     ("lines", "text", "message"),
     [
-        (ASKING, "START\n", "line 1: found START, but ACCEPT waits for a line, statement 5 (card 1)"),
+        (
+            ASKING,
+            "START\n",
+            "line 1: found START, which does not fit the halt: ACCEPT waits for a line, statement 5 (card 1)",
+        ),
         (
             ["3 PAUSE", "END"],
             "STEP\nENTER 5\n",
-            "line 2: found ENTER 5, but stopped (step) before statement 3 (card 1): PAUSE",
+            "line 2: found ENTER 5, which does not fit the halt: stopped (step) before statement 3 (card 1): PAUSE",
         ),
-        (ASKING, "AT 90 ATTN\n", "line 1: found AT 90 ATTN, but ACCEPT waits for a line, statement 5 (card 1)"),
+        (
+            ASKING,
+            "AT 90 ATTN\n",
+            "line 1: found AT 90 ATTN, which does not fit the halt: ACCEPT waits for a line, statement 5 (card 1)",
+        ),
         (ASKING, "BREAK 8\n", "line 1: deck.f has no statement of that number or card"),
         (ASKING, "BREAK CARD 7\n", "line 1: deck.f has no statement of that number or card"),
     ],

@@ -83,7 +83,7 @@ def test_an_operation_far_beyond_the_limit_is_not_done(statement: str, monkeypat
     ending = costly_machine.run().ending
     assert (ending.kind, ending.line and ending.line.label, ending.normal) == ("limit", 7, False)
     assert ending.message == (
-        f"deck.f: card 2: one operation would exceed the limit, the work of 50 statements, in 7 {statement}; "
+        f"deck.f: card 2: one operation would exceed the limit (the work of 50 statements), in 7 {statement}; "
         "use a larger --limit or numbers of fewer digits"
     )
 

@@ -344,7 +344,10 @@ def test_an_invalid_operator_file_is_reported_in_one_line(folder: Path, capsys, 
     (folder / "bad").write_text("START\n")
     code, out, err = call(capsys, *arguments, "--operator=bad")
     assert (code, out) == (2, "")
-    assert err.splitlines()[-1] == "hull1620: bad: line 1: found START, but ACCEPT waits for a line, card 20"
+    assert (
+        err.splitlines()[-1]
+        == "hull1620: bad: line 1: found START, which does not fit the halt: ACCEPT waits for a line, card 20"
+    )
     assert call(capsys, *arguments, "--operator=none.txt")[2] == "hull1620: none.txt: no such file or directory\n"
 
 
