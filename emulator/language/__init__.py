@@ -4,7 +4,7 @@ A deck passes through ``cards.py`` (card code), ``statements.py`` (statements an
 ``dialect.lark`` and ``formats.py`` (syntax tree of ``tree.py``), and ``compiler.py`` with ``expressions.py`` and
 ``storage.py`` (the object code of ``objectcode.py``).  ``control_flow.py`` warns about doubtful branches.
 
-To add a kind of statement, add or change in each file:
+To add a kind of statement, make these additions and changes:
 
 1. ``tree.py``: a frozen dataclass with the manual's page, and its name in ``Body``.
 2. ``dialect.lark``: a rule for the text of the statement without its number and blanks.
@@ -28,7 +28,7 @@ To add a kind of statement, add or change in each file:
    ``test_compiler_messages.py``), ``tests/emulator/test_period.py``, which runs programs on both engines, and
    ``tests/support/decks_at_random.py``.
 
-To add a FORMAT code that transfers a number, add or change in each file:
+To add a FORMAT code that transfers a number, make these additions and changes:
 
 1. ``emulator/numbers/fields.py``: its letter in ``FieldKind``, and functions that read and write the field, with the
    column arithmetic in ``emulator/numbers/columns.py``, and for IBM's library of 1962 in

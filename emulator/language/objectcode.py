@@ -117,7 +117,7 @@ LIST_PASS, LIST_REST = "pass of the list", "rest of the list"
 
 @dataclass(frozen=True, slots=True)
 class Counter:
-    """The data of a COUNT instruction, at which a statement begins, or a part of it whose executions are counted.
+    """The data of a COUNT instruction, which counts the executions of a statement or of a part of a statement.
 
     ``statement`` is an index into :attr:`Program.statements`.  ``begins`` is True at the beginning of the statement,
     and False for the closing of a DO or the body of an indexed list.

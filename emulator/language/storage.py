@@ -113,7 +113,7 @@ class Allocator:
         return self.immediates.setdefault(text, _PROVISIONAL + len(self.immediates))
 
     def final(self, address: int) -> int:
-        """Return the final address of a field or DO constant.  All of the program must have been translated."""
+        """Return the final address of a field or DO constant.  Call this after the whole program is translated."""
         return address if address < _PROVISIONAL else address - _PROVISIONAL + self.used
 
     def place(self, kind: str, name: str, shape: tuple[int, ...] = ()) -> Entry:

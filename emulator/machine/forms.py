@@ -2,9 +2,9 @@
 
 The rules are those of C26-5619 p. 35-43.  At the beginning or end of a FORMAT, n slashes produce n blank records.
 Between two fields, n+1 slashes produce n blank records.  If a list is longer than the FORMAT, the FORMAT is used again
-on a new record.  If a list is shorter, it stops at the first unused field, and the text before this field is still
-written.  On input an H field stores the card's columns as its new text, and an X field stores the columns that it skips
-(p. 37, 41).  The next output statement with the same FORMAT writes the stored columns.
+on a new record.  If a list is shorter, the statement ends at the first unused field, and the text before this field is
+still written.  On input an H field stores the card's columns as its new text, and an X field stores the columns that
+it skips (p. 37, 41).  The next output statement with the same FORMAT writes the stored columns.
 """
 
 from abc import ABC, abstractmethod

@@ -94,7 +94,7 @@ class Numbers(ABC):
 
     @abstractmethod
     def negate(self, value: Number) -> Number:
-        """Return the number with its sign reversed, even if it is a zero, provided that zeros have signs."""
+        """Return the number with its sign reversed.  This includes zeros if the arithmetic has a minus zero."""
 
     @abstractmethod
     def sign(self, value: Number) -> int:

@@ -7,9 +7,9 @@ This script needs nothing but Python 3.  ``hull1620 export-job`` writes it as ch
     python3 check.py compare expected.cards punched.cards
 
 ``disk`` converts a disk image from text (on each line a sector number, a comma and 105 digits) to the form that SIMH
-reads.  ``join`` puts decks behind one another.  ``compare`` lists the differences by class.  ``compare`` exits with 1
-if a difference belongs to no known class, if the order differs, or if no card was punched.  After an error, every
-command exits with 2.
+reads.  ``join`` writes several decks to one file, one after the other.  ``compare`` lists the differences by class.  It
+exits with 1 if a difference belongs to no known class, if the order differs, or if no card was punched.  After an
+error, every command exits with 2.
 """
 
 from __future__ import annotations

@@ -165,7 +165,7 @@ def _fitted(name: str, card: Card, source: Source | None, compiler: Compiler) ->
 
 
 def _image(name: str, card: Card) -> str:
-    """Return a card in the simulator's characters for its punches.  Raise CardError if a character has none."""
+    """Return a card's text in the characters of the simulator.  Raise CardError if the simulator lacks a character."""
     text = RECORD_MARK.sub("|", card.text).replace("'", "@")
     for column, char in enumerate(text, 1):
         if char not in READABLE:
