@@ -27,8 +27,8 @@ def inside_triangle() -> Proof:
     area, weights = bracket(a, b, c), (bracket(b, c, p), bracket(c, a, p), bracket(a, b, p))
     combined = [dot(weights, [corner[k] for corner in (a, b, c)]) for k in (0, 1)]
     return Proof.of(
-        "a point inside a triangle is a combination of the corners with positive weights; a weight is positive if a "
-        "side, seen from the point, turns in the sense of the corners",
+        "a point is inside a triangle exactly if it is a combination of the corners with positive weights; a weight is "
+        "positive exactly if the opposite side, seen from the point, turns in the sense of the corners",
         "The sign of a determinant of three points is their sense of rotation. The determinants of each side and the "
         "point, divided by that of the corners, are the weights of the point as a combination of the corners. The "
         "weights are unique because the corners are not collinear. A point is inside exactly if all are positive.",

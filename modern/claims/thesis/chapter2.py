@@ -1,7 +1,4 @@
-"""Checks of chapter 2: convex combinations, supporting planes, vertices, and earlier methods for finding a hull.
-
-The earlier methods (testing all planes or lines, and gift wrapping) are carried out on small sets.
-"""
+"""Checks of chapter 2: convex combinations, supporting planes, vertices, and earlier methods, tried on small sets."""
 
 from collections.abc import Sequence
 from fractions import Fraction

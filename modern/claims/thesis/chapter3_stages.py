@@ -178,10 +178,8 @@ def _largest_of_all(sampled: SampledSet) -> Iterator[bool]:
 
 
 def _replaced_facet(sampled: SampledSet) -> Iterator[bool]:
-    """Yield, for each new point outside a single facet, True if one new facet on each edge of this facet replaces it.
-
-    In a plane, every new point must be outside a single line.
-    """
+    """Yield, for each new point outside a single facet, True if a new facet on each edge of this facet replaces it."""
+    # In a plane, every new point must be outside a single line.
     for before, after, record, added in _steps(sampled):
         if sampled.flat or record.outside == 1:
             replaced = {*before.defining[record.checked - 1]}

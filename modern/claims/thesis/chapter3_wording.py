@@ -3,7 +3,7 @@
 import re
 from collections.abc import Sequence
 from fractions import Fraction
-from itertools import pairwise
+from itertools import pairwise, product
 
 from emulator.objectdeck.extent import code_positions
 from modern.claims.evidence import Check, claim, exhibited, refuted, searched, slip
@@ -31,7 +31,7 @@ from modern.claims.thesis.chapter3_steps import (
     mean_of_first_hull,
     new_planes,
     order_of_replacement,
-    planes_of_same_points,
+    orders_of_program_3,
     third_point,
 )
 from modern.claims.thesis.chapter4_examples import EXTREMES_IN_A_PLANE
@@ -40,7 +40,6 @@ from modern.edition import programs
 from modern.geometry.vectors import six_volumes
 from modern.thesis.cards import read_hull
 
-Pair = tuple[int, int]
 # Rules of the text for each stage of the construction, as named in ``chapter3_stages``.
 _RULES_OF_STAGES = ("struck_inside", "accepted", "farthest_outside", "replaced_line", "renumbering")
 
@@ -58,7 +57,7 @@ def text_against_listing(cases: int = CASES) -> Check:
     message += f"that follows {len(rules)} rules of the text; {len(same_result)} other steps of the text lead to the "
     message += "same hull"
     check = searched(BOTH, 2 * cases, [*agree, *(step.holds for step in (*rules, *same_result))], message)
-    case = f"two other steps, which lose the hull or a line; and by {planes_of_same_points().evidence.violation}"
+    case = f"two other steps, which lose the hull or a line; and by {orders_of_program_3()}"
     return check.unless(not any(step.holds for step in losing), case)
 
 
@@ -73,31 +72,38 @@ def _punches_same_hull(sampled: SampledSet) -> bool:
     return hull.history == sampled.hull.history and punched == [*parts, equations]
 
 
-@claim("thesis.275")
+@claim("thesis.275", full=400)
+def line_duplicates(cases: int = CASES) -> Check:
+    sets = [*LATTICE_SETS[2].cases(cases)]
+    left, numbers = zip(*(_lines_left(points, keep_last=True) for points in sets), strict=True)
+    outcomes = [len(k) == len({*k}) == len(exact_hull(points).facets) for k, points in zip(left, sets, strict=True)]
+    removed = sum(numbers)
+    message = f"in {cases} sets, the rule leaves one equation of each line if it never removes the last equation of a "
+    check = searched(LATTICE_SETS[2], cases, [*outcomes, removed], f"{message}line; number of removed ones: {removed}")
+    lost = line_duplicates_as_printed()
+    return check.unless(not lost.holds, f"the six points of line_lost.csv: {lost.message}")
+
+
 def line_duplicates_as_printed() -> Check:
     points = counterexample_points("line_lost.csv")
-    judge, hull = exact_hull(points), convex_hull(points, history=True)
-    equations = [(a, b) for a, b in hull.history[-1].equations]
-    remaining = _duplicates_removed_as_worded(points, added_points(hull), equations)
-    lines = len({frozenset(on_line(points, *pair)) for pair in remaining})
-    right = len({face.lowest for face in hull.faces}) == len(judge.facets)
-    message = f"by the rule of page 28, {lines} of {len(judge.facets)} lines remain; the listing keeps all of them"
-    return refuted(lines < len(judge.facets) and right, message)
+    lines, all_lines = len({*_lines_left(points, keep_last=False)[0]}), len(exact_hull(points).facets)
+    message = f"by the rule as worded, {lines} of {all_lines} lines remain; the listing keeps all of them"
+    return refuted(lines < all_lines == len({face.lowest for face in convex_hull(points).faces}), message)
 
 
-def _duplicates_removed_as_worded(points: Sequence[Point], used: Sequence[int], equations: list[Pair]) -> list[Pair]:
-    """Return the equations of lines that remain if pages 26 to 28 are applied as worded."""
-    # If a third point satisfies an equation, this equation is eliminated, and so is the middle one of the three points.
-    # Page 28 says to continue until one equation of each line remains.
-    remaining, vertices = list(equations), list(used)
-    for i in used:
-        for pair in [*remaining]:
-            has_duplicates = len({frozenset(on_line(points, *p)) for p in remaining}) < len(remaining)
-            if has_duplicates and i in vertices and i not in pair and i in on_line(points, *pair):
-                remaining.remove(pair)
-                middle = sorted((i, *pair), key=lambda k: points[k])[1]
-                vertices = [k for k in vertices if k != middle]
-    return remaining
+def _lines_left(points: Sequence[Point], keep_last: bool) -> tuple[list[frozenset[int]], int]:
+    """Apply pages 26 to 28 as worded; return the lines of the equations that are left, and how many were removed."""
+    hull = convex_hull(points, history=True)
+    lines = {pair: frozenset(on_line(points, *pair)) for pair in hull.history[-1].equations}
+    left, vertices = [*lines.values()], {*(used := added_points(hull))}
+    for i, (pair, line) in product(used, [*lines.items()]):
+        # If a third point satisfies an equation, this equation is eliminated, and so is the middle of the three points.
+        if pair in lines and i in vertices and i not in pair and i in line:
+            # Page 28 says to continue until one equation of each line remains.
+            if left.count(line) > 1 or (not keep_last and len({*left}) < len(left)):
+                left.remove(lines.pop(pair))
+            vertices.discard(sorted((i, *pair), key=lambda k: points[k])[1])
+    return left, len(hull.history[-1].equations) - len(left)
 
 
 @claim("thesis.103", "thesis.276", full=300)

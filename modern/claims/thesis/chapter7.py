@@ -152,20 +152,18 @@ def fifty_one_points() -> Check:
     coordinates = {sizes[axis] for sizes, axes in zip(arrays, ("XYZ", "RST", "XYZ"), strict=True) for axis in axes}
     many = [*TETRAHEDRON, *((k, 1, 1) for k in range(1, 48))]
     hull = read_hull(run_hull(deck_with(many), programs.program).final.result.punched)
-    right = {tuple(map(int, p)) for p in hull.vertices} == {*TETRAHEDRON} and len(many) == 51
-    right = right and coordinates == {51} and arrays[2]["KK"] == PLACES
-    check = exhibited(right, "the arrays hold 51 points, and the programs find the hull of a set of 51 points")
-    message = f"{len(points)} points that need {most} entries of the plane table at once; program 3 has {PLACES}"
-    return check.unless(len(points) <= 51 and most > PLACES, message)
+    vertices, inside = ({tuple(map(int, p)) for p in part} for part in (hull.vertices, hull.inside))
+    right = vertices == {*TETRAHEDRON} and inside == {*many} - vertices and len(hull.equations) == len(vertices)
+    right = right and coordinates == {len(many)} and arrays[2]["KK"] == PLACES < most
+    message = f"the arrays hold {len(many)} points, and the programs find the hull of a set of as many points; another "
+    message += f"set, of {len(points)} points, needs {most} entries of the plane table at once, but it has {PLACES}"
+    return exhibited(right and len(points) < len(many), message)
 
 
 @cache
 def entries_of_plane_table() -> int:
-    """Return the largest number of entries of the plane table in use at once for the deck ``table.deck``.
-
-    Each step keeps the planes of the previous hull and adds three planes for each plane that it replaces. Only then
-    does it remove the replaced planes.
-    """
+    """Return the largest number of entries of the plane table in use at once for the deck ``table.deck``."""
+    # Each step adds three planes for each plane that it replaces, and only then removes the replaced planes.
     hull = convex_hull(points_on(deck_of("table.deck")), history=True)
     return max(len(before.equations) + 2 * after.outside + 1 for before, after in pairwise(hull.history))
 
@@ -205,9 +203,11 @@ def vertices_of(name: str) -> tuple[set[int], set[int]]:
 @claim("thesis.159")
 def silent_loss() -> Check:
     punched, judge = vertices_of("silent.deck")
-    message = typed(run_of("silent.deck"))
-    passed = punched != judge and "NOT ACCEPTABLE" not in message
-    return refuted(passed, f"the programs punch {len(punched)} of {len(judge)} vertices and type {message}")
+    planes = [facet.plane for facet in exact_hull(points_on(deck_of("silent.deck"))).facets]
+    digits, words = min(len(str(max(map(abs, plane)))) for plane in planes), typed(run_of("silent.deck"))
+    passed = digits > 8 and punched != judge and "NOT ACCEPTABLE" not in words
+    message = f"the exact equations need {digits} digits or more; the programs punch {len(punched)} of {len(judge)} "
+    return refuted(passed, f"{message}vertices and type only {words}")
 
 
 @claim("thesis.65")
