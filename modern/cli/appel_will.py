@@ -77,6 +77,7 @@ def main(args: argparse.Namespace) -> int:
     report = _report(source, surfaces, hull, joined, args.trace, columns)
     print_report(args, _summary(source, surfaces, hull, joined) if is_brief else report)
     print_report(args, _false_edges(source, hull) if method.star is as_printed else ())
+    print_report(args, _wrong_counts(hull))
     print_report(args, [f"no hull: {hull.fault}"] if hull.fault else ())
     return DIFFERS if hull.fault else OK
 
@@ -257,6 +258,14 @@ def _false_edges(source: Input, hull: Assembled) -> Iterator[str]:
         labels = ", ".join(map(str, false))
         yield f"{len(false)} of {len(hull.edges)} lines are not edges of the hull: {labels}"
         yield "the star polygon test as printed accepts them, because images of two points lie on one ray"
+
+
+def _wrong_counts(hull: Assembled) -> Iterator[str]:
+    """Yield a report if step 10, applied as printed, has cleared the counts IUC of lines that the loops use."""
+    wrong = sum(count != right for count, right in zip(hull.table.uses, hull.table.in_loops, strict=True))
+    if wrong:
+        yield ""
+        yield f"{wrong} of {len(hull.edges)} counts IUC are wrong at the end: step 10 as printed sets all counts to 0"
 
 
 def _table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> Iterator[str]:

@@ -17,7 +17,7 @@ from modern.claims.sampled_sets import Plane, Point, counterexample, counterexam
 from modern.formats.off import parse_off
 from modern.geometry.mesh import sides
 from modern.geometry.vectors import area_vector, cross, dot, lowest, minus
-from modern.papers.appel_will import Method, appel_will
+from modern.papers.appel_will import CORRECTED, Method, appel_will, printed
 from modern.papers.appel_will.corners import Rule, preprocess, triple_product
 from modern.papers.appel_will.results import Solid, printed_solid
 from modern.papers.appel_will.star import as_corrected
@@ -255,6 +255,22 @@ def fourth_loop() -> Check:
     reading = " ".join(map(str, corrected))
     message = f"the loop {' '.join(map(str, as_printed))} of the lines of Fig. 14 is not closed, but {reading} is"
     return slip(is_closed_loop(as_printed, lines), is_closed_loop(corrected, lines), reading, message)
+
+
+@claim("appel-will.108")
+def counts_of_step_10() -> Check:
+    print_of = corrected_print("appel-will")
+    # A row of Fig. 22 has, for each loop, the labels of some lines and the counts IUC of these lines after the loop.
+    cells = [[row.split("\t")[1::2] for row in print_of[f"fig22-loops-{n}"][1:]] for n in ("1-3", "4-5")]
+    fig22 = [tuple(numbers_in(" ".join(column))) for rows in cells for column in zip(*rows, strict=True)]
+    points = counterexample_points("fig14.csv")
+    tables = [appel_will(points, method=method).table.loops for method in (printed("step10"), CORRECTED)]
+    entries, corrected = ([loop.entries for loop in loops] for loops in tables)
+    counts, right = ([loop.uses for loop in loops] for loops in tables)
+    wrong = [k for k, (a, b) in enumerate(zip(counts, fig22, strict=True)) if a != b]
+    message = f"with the printed step number, the {len(entries)} loops are the same, but the counts IUC after loop "
+    message += "; ".join(f"{k + 1} are {counts[k]} instead of {fig22[k]}" for k in wrong[:1])
+    return slip(entries != corrected or not wrong, right == fig22, "step 2", message)
 
 
 @claim("appel-will.159")

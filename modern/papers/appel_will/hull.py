@@ -29,8 +29,8 @@ class Method:
     step 3.
     ``step9``: when searching for the next line of a loop, exclude L1 and L2, but not the other lines already on the
     loop.
-    ``step10``: "start another loop at step 1". Every loop then begins as if no line had been used. The correct target
-    is step 2.
+    ``step10``: "start another loop at step 1", which sets all counts IUC to 0. No count becomes 2, but the loops are
+    the same, unless other steps are also applied as printed. The correct target is step 2.
     """
 
     star: StarTest = in_one_pass
@@ -88,10 +88,10 @@ class Assembled:
         if self.table.stopped:
             return self.table.stopped
         if self.dimension == 3 and not self.table.closed:
-            return f"{sum(count != 2 for count in self.table.uses)} of {e} edges are not used by exactly two loops"
+            return f"{sum(count != 2 for count in self.table.in_loops)} of {e} edges are not used by exactly two loops"
         if self.dimension == 3 and v - e + f != 2:
             return f"V - E + F is {v} - {e} + {f} = {v - e + f}, not 2"
-        if self.dimension == 2 and (f != 1 or any(count != 1 for count in self.table.uses)):
+        if self.dimension == 2 and (f != 1 or any(count != 1 for count in self.table.in_loops)):
             return f"{e} edges and {f} loops do not form one polygon"
         return ""
 

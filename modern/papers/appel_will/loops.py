@@ -5,6 +5,7 @@ and LC2(L), with LC1(L) < LC2(L). A loop has the entry L if it runs along the li
 -L if it runs from LC2(L) to LC1(L).
 """
 
+from collections import Counter
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 
@@ -21,7 +22,8 @@ class Loop:
 
     ``entries`` are the paper's LUP(N, 1), LUP(N, 2) and so on for loop N. ``kind`` is the type of the intersection of
     the first two edges (Fig. 20). ``start`` and ``match`` are the points SP and MP of step 8: the loop starts at SP and
-    continues from MP. ``uses`` has for each edge L the count IUC(L): the number of its uses in all loops so far.
+    continues from MP. ``uses`` has for each edge L the count IUC(L) after the loop: the number of its uses in all loops
+    so far, or in this loop alone if step 10 is applied as printed.
     """
 
     entries: tuple[int, ...]
@@ -33,9 +35,10 @@ class Loop:
 
 @dataclass(frozen=True, slots=True)
 class LoopTable:
-    """All loops (borders of faces) in the order of the search, and the number of uses of each edge.
+    """All loops (borders of faces) in the order of the search.
 
-    ``stopped`` is the reason why the search failed, or "".
+    ``uses`` has the counts IUC at the end. They are wrong, namely all 0, if step 10 is applied as printed. ``stopped``
+    is the reason why the search failed, or "".
     """
 
     loops: tuple[Loop, ...]
@@ -43,9 +46,15 @@ class LoopTable:
     stopped: str = ""
 
     @property
+    def in_loops(self) -> tuple[int, ...]:
+        """For each edge, the number of its uses in the loops, counted from the loops and not taken from IUC."""
+        counts = Counter(abs(entry) for loop in self.loops for entry in loop.entries)
+        return tuple(counts[label] for label in range(1, len(self.uses) + 1))
+
+    @property
     def closed(self) -> bool:
         """True if every edge belongs to two loops."""
-        return bool(self.uses) and all(count == TIMES for count in self.uses)
+        return bool(self.uses) and all(count == TIMES for count in self.in_loops)
 
 
 @dataclass(frozen=True, slots=True)

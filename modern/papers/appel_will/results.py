@@ -183,7 +183,7 @@ def _last_two(hull: Assembled) -> Iterator[str]:
     yield " ".join(f"{_numbers(len(loop.entries))} {_joined(loop.entries)}" for loop in loops)
     for first, last in ((1, 1), (2, 6), (7, 9)):
         row = " ".join(f"{_numbers(last, first)} {_joined(loop.uses[first - 1 : last])}" for loop in loops)
-        remark = " All 2's indicate end of processing" if hull.table.closed else ""
+        remark = " All 2's indicate end of processing" if {*hull.table.uses} == {2} else ""
         yield row + (remark if first == 2 else "")
 
 

@@ -107,6 +107,9 @@ def test_step_3_as_printed_reverses_a_loop(folder: Path, capsys) -> None:
     assert (code, err) == (0, "note: these rules are applied as the paper prints them: step3\n")
     assert "LUP(3,N)  2 6 -7 -3" in preferred
     assert "LUP(3,N)  -2 3 7 -6" in as_printed
+    code, out, _ = call(capsys, "appel-will", "fig14.csv", "--printed", "step10")
+    assert code == 0
+    assert out.endswith("\n9 of 9 counts IUC are wrong at the end: step 10 as printed sets all counts to 0\n")
 
 
 def test_rule_any_reports_whether_its_condition_is_met(folder: Path, capsys) -> None:

@@ -91,8 +91,8 @@ def test_hulls_of_every_dimension(points: list[Point], dimension: int, edges: in
 def test_edges_and_loops_that_are_not_a_hull_have_a_fault() -> None:
     hull = appel_will([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)])
     assert hull.fault == ""
-    used = (1, *hull.table.uses[1:])
-    assert replace(hull, table=replace(hull.table, uses=used)).fault == "1 of 6 edges are not used by exactly two loops"
+    fewer = replace(hull.table, loops=hull.table.loops[1:])
+    assert replace(hull, table=fewer).fault == "3 of 6 edges are not used by exactly two loops"
     assert replace(hull, surfaces=hull.surfaces[1:]).fault == "V - E + F is 4 - 6 + 3 = 1, not 2"
     square = [(x, y, 0) for x in (0, 1) for y in (0, 1)]
     diagonals = appel_will([*square, (3, 1, 0)], method=replace(printed("step3"), star=lambda images: True))

@@ -104,4 +104,7 @@ def test_steps_7_and_10_as_printed_find_the_loops_in_another_way() -> None:
     hull = appel_will(FIG_14, method=printed("step10"))
     assert [set(s) for s in hull.surfaces] == [set(s) for s in appel_will(FIG_14).surfaces]
     assert all(max(loop.uses) == 1 for loop in hull.table.loops)
-    assert hull.fault == "9 of 9 edges are not used by exactly two loops"
+    assert (hull.fault, hull.table.uses, hull.table.in_loops) == ("", (0,) * 9, (2,) * 9)
+    # If step 5 is also applied as printed, a face is missing.
+    with_5 = appel_will(FIG_14, method=printed("step5", "step10"))
+    assert with_5.fault == "3 of 9 edges are not used by exactly two loops"
