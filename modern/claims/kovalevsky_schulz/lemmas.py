@@ -4,26 +4,19 @@ from collections.abc import Sequence
 from fractions import Fraction
 from itertools import combinations, product
 
+from modern.claims import sampled_sets
 from modern.claims.evidence import Check, Generator, claim, refuted, search, searched
 from modern.claims.hulls import exact_hull
 from modern.claims.kovalevsky_schulz.polyhedra import OUTSIDE, growing_polyhedra, horizon, hulls, polyhedron
 from modern.claims.kovalevsky_schulz.proofs import lemma_be, lemma_ch, lemma_lz
-from modern.claims.kovalevsky_schulz.voxels import KINDS, SOLIDS, Voxels, local, points_of
-from modern.claims.sampled_sets import (
-    CASES,
-    SETS,
-    Plane,
-    Point,
-    counterexample_points,
-    is_closed_curve,
-    plane_through,
-    plane_value,
-)
+from modern.claims.kovalevsky_schulz.voxels import DIRECTIONS, KINDS, SOLIDS, Voxels, local, points_of
+from modern.claims.sampled_sets import CASES, SETS, Plane, Point, counterexample_points, plane_through, plane_value
 from modern.digital.solids import listed
 from modern.exact_hull import ExactHull
 from modern.geometry.vectors import cross, dot, minus, plus
 from modern.papers.kovalevsky_schulz import local_corners
 from modern.papers.kovalevsky_schulz.corners import Of
+from modern.papers.kovalevsky_schulz.hull import merged
 
 
 @claim("kovalevsky-schulz.120", vertices="interior")
@@ -45,9 +38,11 @@ def smaller_polyhedron(vertices: str) -> Check:
 @claim("kovalevsky-schulz.126", "kovalevsky-schulz.75", full=1_000)
 def vertices_are_local_corners(cases: int = 2) -> Check:
     def agrees(solid: Voxels, of: Of) -> bool:
-        cells = polyhedron(local_corners(listed(solid), of))
-        planes = {facet.plane for facet in exact_hull(points_of(solid, of)).facets}
-        return {*cells.planes()} == planes and {*cells.points} <= local(solid, of)
+        cells, points = merged(polyhedron(local_corners(listed(solid), of))), points_of(solid, of)
+        # A local corner is no combination of its neighbours in the set.
+        near = [[*(plus(p, d) for d in DIRECTIONS if plus(p, d) in points), p] for p in cells.points]
+        are_local = {*cells.points} <= local(solid, of) and all(len(n) - 1 in exact_hull(n).vertices for n in near)
+        return are_local and {*cells.planes()} == {facet.plane for facet in exact_hull(points).facets}
 
     message = "the hull of the local corners is that of all points, and its vertices are local corners"
     return search(SOLIDS, lambda solid: all(agrees(solid, of) for of in KINDS), cases, message)
@@ -97,7 +92,8 @@ NO_FOUR_COPLANAR: Generator[tuple[Point, ...]] = Generator(
 @claim("yau-srihari.14", full=400)
 def closed_boundary(cases: int = CASES) -> Check:
     message = "the boundary between the light and the dark faces is one closed curve"
-    return search(NO_FOUR_COPLANAR, lambda p: is_closed_curve(horizon(exact_hull(p[:-1]), p[-1])), cases, message)
+    is_closed = sampled_sets.is_closed_curve
+    return search(NO_FOUR_COPLANAR, lambda p: is_closed(horizon(exact_hull(p[:-1]), p[-1])), cases, message)
 
 
 @claim("kovalevsky-schulz.73", full=400)

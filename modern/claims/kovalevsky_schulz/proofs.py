@@ -1,22 +1,10 @@
 """Proofs of lemmas LZ, CH and BE of Kovalevsky and Schulz; :mod:`modern.claims.algebra` checks the steps."""
 
-from modern.claims.algebra import (
-    Proof,
-    Step,
-    combination_satisfies,
-    dot,
-    largest_value,
-    minus,
-    not_negative,
-    point,
-    positive,
-    proves,
-    term,
-    variables,
-    zero,
-)
+from modern.claims import algebra
+from modern.claims.algebra import Proof, Step, dot, minus, not_negative, point, positive, proves, term, variables, zero
 from modern.claims.evidence import Check, claim
 from modern.claims.hulls import exact_hull
+from modern.claims.sampled_sets import Point
 
 
 @proves("kovalevsky-schulz.66")
@@ -49,8 +37,8 @@ def largest_combination() -> Proof:
         "a point with the largest value of H is a combination only of points with this value",
         "H of a combination is the combination of the values of H. More than two points are combined one after the "
         "other, and only points with positive weights count.",
-        largest_value(),
-        combination_satisfies()[0],
+        algebra.largest_value(),
+        algebra.combination_satisfies()[0],
     )
 
 
@@ -76,8 +64,8 @@ def lemma_ch() -> Proof:
         "off contains a local corner, because one of its points is no combination of others. But K contains all local "
         "corners, and so V. Let a convex polyhedron K' contain V and have its vertices in K. It consists of the "
         "combinations of these (Minkowski). As the vertices of K are in V, hence in K', K is in K'. Also K' is in K.",
-        largest_value(),
-        *combination_satisfies(),
+        algebra.largest_value(),
+        *algebra.combination_satisfies(),
     )
 
 
@@ -96,8 +84,8 @@ def no_combination() -> Proof:
         "all of whose vertices are other points of the given one does not contain the vertex. By Minkowski's theorem "
         "every point is a combination of vertices. So a convex polyhedron that contains all vertices contains the "
         "whole polyhedron, and a smaller one does not contain all vertices.",
-        largest_value(),
-        *combination_satisfies(),
+        algebra.largest_value(),
+        *algebra.combination_satisfies(),
     )
 
 
@@ -117,14 +105,31 @@ def choice_of_q() -> Proof:
 
 
 def halves() -> Proof:
-    x, p, q, w_p, w_q = variables("x p q w_p w_q")
-    below = {"p": positive(x - p), "q": positive(x - q), "w_p": positive(w_p), "w_q": not_negative(w_q)}
-    smaller = positive((w_p + w_q) * x - w_p * p - w_q * q)
+    c, p, q, w_p, w_q = variables("c p q w_p w_q")
+    within = {"p": not_negative(c - p), "q": not_negative(c - q), "w_p": not_negative(w_p), "w_q": not_negative(w_q)}
+    below = {**within, "p": positive(c - p), "w_p": positive(w_p)}
+    total, terms = (w_p + w_q) * c - w_p * p - w_q * q, (term("w_p p"), term("w_q q"))
     return Proof.of(
-        "the hulls of two sets do not meet if a plane x = c is between the sets",
-        "All combinations of points with an x smaller than c have an x smaller than c. The other set is treated in "
-        "the same way with the opposite sign.",
-        Step("x of a combination is smaller", below, smaller, (term("w_p p"), term("w_q q"))),
+        "the hulls of two parts of a sorted set do not meet if no value of the sorted coordinate x is in both parts",
+        "Let c be the largest x of the first part, and d the smallest x of the second part, so that c <= d. All "
+        "combinations of points of the first part have x <= c, and those of the second part have x >= d. So the hulls "
+        "have no common points if c < d. If a point of the first part has x < c, an inner point of its hull has x < c, "
+        "because it is between that point and another point of the hull. The second part is treated in the same way. "
+        "So the hulls have no common inner points unless x is c at all points of both parts.",
+        Step("x of a combination is at most c", within, not_negative(total), terms),
+        Step("x of a combination with a point below c is smaller", below, positive(total), terms),
+    )
+
+
+@proves("kovalevsky-schulz.78")
+def size_of_triangulation() -> Proof:
+    v, e, t, chi = variables("V E T chi")
+    surface, vertices = {"sides": zero(3 * t - 2 * e), "chi": zero(v - e + t - chi)}, zero(2 * v - t - 2 * chi)
+    return Proof.of(
+        "a closed surface of T triangles and Euler number chi has T / 2 + chi vertices and 4.5 T + 3 chi integers",
+        "The surface has V vertices and E edges, and chi is V - E + T, or 2 for a sphere. Each triangle has three "
+        "sides, and each edge is a side of two triangles. Formula (5) omits 3 chi.",
+        Step("twice V is T + 2 chi", surface, vertices, (term("chi", 2), term("sides", -1))),
     )
 
 
@@ -135,7 +140,7 @@ def symmetry() -> Proof:
         "Each coordinate of the image is a linear function with a constant term, so that the image of a combination is "
         "the combination of the images. So combinations of the points are mapped to combinations of them, and the "
         "inverse map shows that all of them are images.",
-        *combination_satisfies()[:1],
+        *algebra.combination_satisfies()[:1],
     )
 
 
@@ -171,8 +176,11 @@ def lemma_be() -> Proof:
     )
 
 
-@claim("kovalevsky-schulz.146", "yau-srihari.17")
-def halves_of_sorted_set() -> Check:
-    first, second = [(0, 0, 0), (0, 2, 0)], [(0, 1, 0), (1, 1, 0)]
+@claim("kovalevsky-schulz.146", end=(1, 1, 0))
+@claim("yau-srihari.17", end=(0, 3, 0), conclusion="the hulls have no common inner points unless x is always the same")
+def halves_of_sorted_set(end: Point, conclusion: str = "") -> Check:
+    first, second = [(0, 0, 0), (0, 2, 0)], [(0, 1, 0), end]
     meet = max(p[0] for p in first) <= min(p[0] for p in second) and 2 not in exact_hull([*first, second[0]]).vertices
-    return halves().check().unless(meet, "the halves (0, 0), (0, 2) and (0, 1), (1, 1), whose hulls meet in (0, 1)")
+    overlap = meet and 2 not in exact_hull([*second, first[1]]).vertices
+    case = f"the halves {first} and {second}, whose hulls {'overlap' if overlap else 'meet in (0, 1, 0)'}"
+    return halves().check(conclusion).unless(overlap if conclusion else meet, case)

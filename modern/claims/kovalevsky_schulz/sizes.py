@@ -8,25 +8,18 @@ from itertools import chain
 
 import numpy as np
 
-from modern.claims.evidence import Check, claim, exhausted, exhibited, refuted, searched, slip
+from modern.claims.evidence import Check, claim, exhausted, exhibited, refuted, slip
 from modern.claims.hulls import exact_hull
 from modern.claims.invariants import HalfBall, corrected_print, half_balls, may_be_convex, numbers_in
-from modern.claims.kovalevsky_schulz.polyhedra import hulls, polyhedron
+from modern.claims.kovalevsky_schulz.polyhedra import polyhedron
 from modern.claims.published import PAPERS, results_of
-from modern.claims.sampled_sets import CASES, SETS, Point
+from modern.claims.sampled_sets import Point
 from modern.digital.solids import Volume, as_volume, half_ball
 from modern.geometry.vectors import dot, minus
 from modern.papers.kovalevsky_schulz import CENTRES, INVISIBLE, VERTICES, VISIBLE, local_corners, voxel_hull
 from modern.papers.kovalevsky_schulz.cells import CellList, cell_list_size, economical_size, triangulation_size
 from modern.papers.kovalevsky_schulz.hull import RASTER, SHUFFLED, merged, straightened
 from modern.papers.kovalevsky_schulz.results import half_ball_cells
-
-
-@claim("kovalevsky-schulz.78", full=400)
-def formula_5(cases: int = CASES) -> Check:
-    lists = [polyhedron(points) for points, _ in hulls(cases)]
-    excess = [3 * len(c.vertices) + 3 * len(c.faces) - triangulation_size(len(c.faces)) for c in lists]
-    return searched(SETS[3], cases, [e == 6 for e in excess], "triangulated hulls need 6 integers more than (5) gives")
 
 
 @claim("kovalevsky-schulz.91")

@@ -83,7 +83,6 @@ def _fills(voxels: tuple[Point, ...], judge: ExactHull) -> bool:
 
 
 @claim("yau-srihari.66", name="bound")
-@claim("yau-srihari.71", name="corners")
 @claim("yau-srihari.83", name="start")
 @claim("yau-srihari.86", name="truncation")
 @claim("yau-srihari.87", name="marks")

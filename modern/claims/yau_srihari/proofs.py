@@ -7,6 +7,8 @@ from modern.claims.algebra import Proof, Step, dot, not_negative, point, positiv
 from modern.claims.evidence import Check, claim
 from modern.claims.kovalevsky_schulz.proofs import lemma_lz
 from modern.claims.yau_srihari.envelopes import algorithm_as_printed
+from modern.papers.yau_srihari import Printed
+from modern.papers.yau_srihari.search import Search
 
 
 def combination_above() -> Step:
@@ -130,6 +132,31 @@ def theorem_2() -> Proof:
         Step("a far point has the larger angle", sides, inside, (term("w far"), term("u near")), ("upright",)),
         Step("the outward normals make the supplement", {}, zero(dot(outward_p, outward_q) + dot(f, u))),
     )
+
+
+def between_corners() -> Proof:
+    u, w, (s, t) = point("u", 2), point("w", 2), variables("s t")
+    between = tuple(s * a + t * b for a, b in zip(u, w, strict=True))
+    weights = {"s": not_negative(s), "t": not_negative(t), "angles": not_negative(turn(w, u))}
+    return Proof.of(
+        "if no corner is outside the known face p, and psi is defined, its extremes over a square are at two corners",
+        "Project along the edge, as for theorem 2. No point of the square is outside the plane of p or on the line of "
+        "the edge, so that no two points are in opposite directions from it. So a point u has no smaller angle than w "
+        "if the turn from w to u is not negative. Then a point s u + t w between them has an angle between theirs. "
+        "A point of the square is between points of sides, and these are between corners. If the smallest angle is the "
+        "largest, too, all angles are equal.",
+        Step("the angle is not larger than that of u", weights, not_negative(turn(between, u)), (term("t angles"),)),
+        Step("the angle is not smaller than that of w", weights, not_negative(turn(w, between)), (term("s angles"),)),
+    )
+
+
+@claim("yau-srihari.71")
+def extremes_at_corners() -> Check:
+    search, as_printed = Search((0, 0, 0), (0, 1, 0), (-1, 0, 0), Printed()), algorithm_as_printed("corners")
+    inside, *corners = (search.score((x, y, 1)) or 0 for x, y in ((0, 1), (-2, 0), (-2, 3), (1, 0), (1, 3)))
+    case = "the upright face at the edge from (0, 0, 0) to (0, 1, 0): over the square from (-2, 0) to (1, 3), at the "
+    case += f"height 1, psi is smaller at (0, 1) than at the corners; {as_printed.message}"
+    return between_corners().check().unless(inside < min(corners) and not as_printed.holds, case)
 
 
 @proves("yau-srihari.101")

@@ -30,9 +30,8 @@ class Printed:
         The least angle needs z = min, the value of a node of the floor tree. A corner of the square below the plane of
         the known face, where no point can be, counts as lying in this plane.
     corners
-        Section 4.6.2 assumes that the angle is least and greatest at corners of a square. This assumption holds only if
-        the whole square lies beyond the edge of the known face. A square that the edge's line crosses has to be
-        divided.
+        Section 4.6.2 assumes that the angle is least and greatest at corners of a square. This assumption can fail if a
+        part of the square does not lie beyond the edge of the known face. Such a square has to be divided.
     marks
         Section 5 marks every digital point of a face and searches only unmarked points. But the vertices of a face are
         vertices of neighbouring faces too, so they must not be marked.

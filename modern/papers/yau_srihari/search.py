@@ -113,7 +113,7 @@ class Search:
         Theorem 2 is applied as printed, the greatest height is needed.
         """
         places = list(_corners(x, y, side))
-        # The score is monotonic along the square's sides only if the whole square lies beyond the edge.
+        # The corners are known to have the extreme scores only if the whole square lies beyond the edge.
         if not self.printed.corners and not all(self.beyond(*place) for place in places):
             return None, None
         z = high if self.printed.bound or self.printed.angle else low

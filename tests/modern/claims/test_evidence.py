@@ -6,19 +6,8 @@ from random import Random
 
 import pytest
 
-from modern.claims.evidence import (
-    Check,
-    Generator,
-    claim,
-    exhausted,
-    exhibited,
-    proved,
-    refuted,
-    search,
-    searched,
-    shrink,
-    slip,
-)
+from modern.claims import evidence
+from modern.claims.evidence import Check, Generator, claim, exhausted, exhibited, proved, refuted, search, searched
 
 PAIRS: Generator[tuple[int, ...]] = Generator("pairs", 7, lambda r: (r.randint(-50, 50), r.randint(0, 9)))
 
@@ -36,8 +25,8 @@ def test_outcomes_conditions_and_slips_decide_a_check() -> None:
         assert not check.holds
     assert exhibited(1, "").unless(True, "a case").evidence.violation == "a case"
     assert exhibited(1, "").unless(False, "a case").evidence.violation == ""
-    assert slip(False, True, "z", "").evidence.correction == "z"
-    assert slip(False, False, "z", "").evidence.correction == ""
+    assert evidence.slip(False, True, "z", "").evidence.correction == "z"
+    assert evidence.slip(False, False, "z", "").evidence.correction == ""
     assert not refuted(True, "").holds
 
 
@@ -45,7 +34,7 @@ def test_counterexamples_are_shrunk() -> None:
     check = search(PAIRS, lambda pair: pair[0] < 17, 1000, "smaller than 17")
     assert (check.holds, check.message) == (False, "refuted by (17,)")
     assert search(PAIRS, lambda pair: pair[0] <= 50, 1000, "at most 50").holds
-    assert shrink(((5, 5), (3, -8), (0, 1)), lambda points: points[1][1] < 0) == ((), (0, -1))
+    assert evidence.shrink(((5, 5), (3, -8), (0, 1)), lambda points: points[1][1] < 0) == ((), (0, -1))
 
 
 def test_generators_repeat_their_cases_and_full_searches_need_a_parameter() -> None:

@@ -10,24 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from modern.claims.register import (
-    CONDITION,
-    DOCUMENTS,
-    FAILS,
-    HOLDS,
-    MOST_WORDS,
-    SLIPS,
-    UNTESTABLE,
-    Judgements,
-    StatementError,
-    Verdict,
-    counts,
-    decisions,
-    judge,
-    judged,
-    read_rows,
-    statements_of,
-)
+from modern.claims import register
+from modern.claims.register import DOCUMENTS, FAILS, HOLDS, Judgements, Verdict, decisions, judge, statements_of
 from modern.cli.main import main
 from tests.support.paths import ROOT
 
@@ -43,14 +27,14 @@ says = "Something."
 
 @pytest.mark.parametrize("document", DOCUMENTS)
 def test_computed_verdicts_are_the_recorded_ones(document: str) -> None:
-    assert [(row.statement.id, row.computed, row.message) for row in judged(document) if not row.agrees] == []
+    assert [(row.statement.id, row.computed, row.message) for row in register.judged(document) if not row.agrees] == []
 
 
 def test_rows_are_unique_decided_and_name_their_counterexamples() -> None:
     assert [name for name in decisions() if name not in BY_ID or BY_ID[name].same] == []
     assert {place: n for place, n in Counter((row.document, row.words) for row in ROWS).items() if n > 1} == {}
     for row in ROWS:
-        assert 1 <= len(row.words.split()) <= MOST_WORDS
+        assert 1 <= len(row.words.split()) <= register.MOST_WORDS
         assert row.says.endswith(".")
     assert {row.file for row in ROWS if row.file} == {path.name for path in COUNTEREXAMPLES.iterdir()} - {"README.md"}
 
@@ -59,10 +43,10 @@ def test_rows_are_unique_decided_and_name_their_counterexamples() -> None:
     ("first", "second", "worst"),
     [
         (HOLDS, HOLDS, HOLDS),
-        (HOLDS, CONDITION, CONDITION),
+        (HOLDS, register.CONDITION, register.CONDITION),
         (FAILS, HOLDS, FAILS),
-        (UNTESTABLE, CONDITION, UNTESTABLE),
-        (UNTESTABLE, FAILS, FAILS),
+        (register.UNTESTABLE, register.CONDITION, register.UNTESTABLE),
+        (register.UNTESTABLE, FAILS, FAILS),
     ],
 )
 def test_worst_verdict_of_check_and_results_counts(first: Verdict, second: Verdict, worst: Verdict) -> None:
@@ -72,7 +56,7 @@ def test_worst_verdict_of_check_and_results_counts(first: Verdict, second: Verdi
     assert judgement.computed == worst
     assert judgement.message.endswith("; published results: first, second")
     failing_claim = replace(BY_ID["thesis.22"], results=("first",))
-    assert judge(failing_claim, lambda *_: HOLDS).computed in (FAILS, *SLIPS)
+    assert judge(failing_claim, lambda *_: HOLDS).computed in (FAILS, *register.SLIPS)
 
 
 @pytest.mark.parametrize(
@@ -120,7 +104,7 @@ def test_commands_that_show_counterexamples_run(run: str, capsys, monkeypatch) -
 
 def test_wrong_verdict_is_reported(capsys, monkeypatch) -> None:
     results = Judgements()
-    checked = [row for row in statements_of("thesis") if row.id in decisions() and row.verdict not in SLIPS]
+    checked = [row for row in statements_of("thesis") if row.id in decisions() and row.verdict not in register.SLIPS]
     for row in checked[::12]:
         assert not judge(replace(row, verdict=FAILS if row.verdict != FAILS else HOLDS), results).agrees
     row = next(row for row in statements_of("yau-srihari") if row.id in decisions() and row.verdict == HOLDS)
@@ -146,29 +130,29 @@ def test_wrong_verdict_is_reported(capsys, monkeypatch) -> None:
     ],
 )
 def test_invalid_row_is_rejected(original: str, replacement: str, message: str) -> None:
-    assert list(read_rows("x", VALID_ROW))
-    with pytest.raises(StatementError, match=re.escape(message)):
-        list(read_rows("x", VALID_ROW.replace(original, replacement)))
+    assert list(register.read_rows("x", VALID_ROW))
+    with pytest.raises(register.StatementError, match=re.escape(message)):
+        list(register.read_rows("x", VALID_ROW.replace(original, replacement)))
 
 
 def test_repetitions_and_slips_are_counted_separately() -> None:
     repeated = VALID_ROW.replace("[1.4]", "[2.5]") + "same = 1"
-    first, second = read_rows("x", VALID_ROW + 'untested = "lost"\n' + repeated)
-    assert (second.verdict, second.why, second.same) == (UNTESTABLE, "lost", first.id)
-    numbers = sum(map(counts, DOCUMENTS), Counter())
+    first, second = register.read_rows("x", VALID_ROW + 'untested = "lost"\n' + repeated)
+    assert (second.verdict, second.why, second.same) == (register.UNTESTABLE, "lost", first.id)
+    numbers = sum(map(register.counts, DOCUMENTS), Counter())
     assert numbers.total() == len(ROWS)
     assert numbers["repetition"] == sum(bool(row.same) for row in ROWS)
-    assert numbers["slip"] == sum(row.verdict in SLIPS and not row.same for row in ROWS)
+    assert numbers["slip"] == sum(row.verdict in register.SLIPS and not row.same for row in ROWS)
 
 
 def test_missing_evidence_is_named() -> None:
     for fields, message in (
         ({"results": ("example 9",)}, "the field 'results' names example 9, which is not a published result"),
         ({"id": "thesis.999"}, "thesis.999: the verdict is 'holds', but there is no check"),
-        ({"verdict": UNTESTABLE}, "the verdict is 'not testable', but there is a check"),
+        ({"verdict": register.UNTESTABLE}, "the verdict is 'not testable', but there is a check"),
         ({"code": "modern.port.nothing"}, "the field 'code' names modern.port.nothing, which does not exist"),
     ):
-        with pytest.raises(StatementError, match=re.escape(message)):
+        with pytest.raises(register.StatementError, match=re.escape(message)):
             judge(replace(BY_ID["thesis.47"], **fields), Judgements())
 
 
