@@ -2,8 +2,8 @@
 
 Two results are *the same* if they are equal or differ only in how zeros are written. They have *different digits* if
 numbers also differ, but by at most TOLERANCE times the larger number: doubles round, and the 1620 truncates to eight
-digits. All other results are *another hull*: the number or the order of points or planes differs, or one program
-rejects the points.
+digits. All other results are *another hull*: the number or the order of points or planes differs, or only one of the
+programs rejects the points.
 """
 
 import re

@@ -1,4 +1,4 @@
-"""A benchmark for authors of tools that estimate rounding errors: programs, formulas, and decks with right decisions.
+"""A benchmark for authors of tools that estimate rounding errors: programs, formulas, and decks with exact decisions.
 
 :func:`benchmark` returns the files as texts.  The same version of the project always returns the same texts.
 """

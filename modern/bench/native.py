@@ -32,7 +32,7 @@ class Compiler:
 
 
 def compiler() -> Compiler:
-    """Return the Fortran compiler that the variable FC names, or the first one found. Raise NoCompiler without one."""
+    """Return the Fortran compiler that FC names, or else the first one found.  Raise NoCompiler if none is found."""
     try:
         command_of_fc = shlex.split(os.environ.get("FC", ""))
     except ValueError as error:

@@ -93,7 +93,8 @@ def _check_options(args: argparse.Namespace) -> None:
             raise UsageError(f"{option} applies only to a picture: add -o FILE.svg")
     if args.eye is not None and (args.map or args.star_of):
         raise UsageError(
-            "--eye applies only to a picture of the solid: --map draws in the plane, and --star-of looks along its line"
+            "--eye applies only to a picture of the solid: "
+            "--map draws in the plane, and --star-of shows the view along a line"
         )
 
 

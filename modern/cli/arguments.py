@@ -57,7 +57,7 @@ def _diverge(parser: ArgumentParser) -> None:
         "if the program reads no cards)",
     )
     against = (
-        "compare --arithmetic with this arithmetic, and ignore differences that rounding in this one may explain "
+        "compare --arithmetic with the arithmetic NAME, and ignore differences that the rounding of NAME may explain "
         "(default: %(default)s)"
     )
     add(parser, {"--against NAME": against}, default="exact")

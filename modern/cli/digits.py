@@ -250,7 +250,7 @@ def _statements(divergence: Divergence, sampling: Sampling) -> Table:
             digits = _one(row.worst), _one(row.median), _one(row.sure), str(row.zeros)
             rows.append((*_columns(row.line), str(row.times), *lost, *digits))
     most = f"{sampling.numbers.digits:.1f}"
-    sentences = [f"numbers of digits, at most {most}; statements that are not listed are exact in every run"]
+    sentences = [f"losses and estimates are in digits (at most {most}); unlisted statements are exact in every run"]
     if divergence.first_value is not None:
         value = divergence.first_value
         sentences.append(

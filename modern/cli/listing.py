@@ -59,7 +59,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _answers(name: str | None) -> tuple[str, str] | None:
-    """Return name and text of the file that ``--operator`` names, or None without one. A terminal is a UsageError."""
+    """Return name and text of the file of ``--operator``, or None for no file. Raise UsageError for the terminal."""
     if name == "":
         raise UsageError(
             "--operator: the listing command cannot ask at the terminal; use --operator=FILE with a file or a log"

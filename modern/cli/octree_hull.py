@@ -57,7 +57,7 @@ def _in_space(volume: Volume) -> Volume:
 
 
 def _printed(args: argparse.Namespace) -> Printed:
-    """Return the rules to apply as printed, by ``--literal`` or ``--printed``. Raise UsageError for an unknown rule."""
+    """Return the rules that the options apply as the paper prints them. Raise UsageError for an unknown rule."""
     if args.literal:
         return LITERAL
     try:

@@ -28,9 +28,9 @@ class Disagreement:
     vertices of the computed hull that are not vertices of the exact hull.  ``misfiled`` has the points that the
     computed hull puts into the wrong class: boundary points among the inside points, or inside points among the
     boundary points.  ``error`` is the largest error of a coefficient among the matched equations.  The errors of A, B
-    and C are relative to the largest of these three coefficients, the error of D to the largest of all four.
-    ``excluded`` is the largest distance of an input point outside the plane or line of a computed equation, to about
-    twelve digits, and ``excluded_point`` is this point.  ``places`` has for each equation of the computed hull the
+    and C are relative to the largest of these three coefficients, the error of D to the largest of all four.  Of the
+    input points outside the plane or line of a computed equation, ``excluded_point`` is the one farthest outside, and
+    ``excluded`` is its distance, to about twelve digits.  ``places`` has for each equation of the computed hull the
     index of the exact equation that it matches, or -1.
     """
 

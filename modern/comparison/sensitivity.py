@@ -53,6 +53,8 @@ def shape_of(texts: Sequence[str]) -> list[str]:
 def sensitivities(machine: Machine, result: Result, most: int = 200) -> tuple[list[Sensitivity], int]:
     """Return the effect of changing each of a deck's first ``most`` numbers, and the number of further numbers.
 
+    Only floating-point numbers that the program has read are counted and changed.
+
     ``machine`` has already run the program on the deck in the reference arithmetic, and ``result`` is the result of
     that run.
     """

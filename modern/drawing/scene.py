@@ -156,9 +156,10 @@ def _edges(
 
 
 def _light(normal: Vector, sight: View) -> Fraction:
-    """Return the brightness of a face: (1 + c) / 2 for the cosine c of the angle between its normal and a lamp.
+    """Return the brightness of a face, (1 + c) / 2.
 
-    The lamp is at the left shoulder of the viewer.
+    c is the cosine of the angle between the face's normal and the direction of the lamp, which is at the left shoulder
+    of the viewer.
     """
     length = sight.stretch
     level = root(Fraction(dot(sight.right, sight.right)))

@@ -28,10 +28,10 @@ WAITING = svg.Style("waiting", "not tested yet", "dot", 'fill="#fff" stroke="#77
 class Frame:
     """The picture of one stage of the construction of a hull.
 
-    The fields are positions of points in the picture. ``waiting`` are the points not tested yet, ``struck`` are the
-    points that have been eliminated as inside so far, and ``added`` are the vertices that this stage added.  In the
-    last stage, all points have been tested. ``boundary`` then has the positions of the points on the boundary of the
-    hull that are not vertices.
+    The last four fields are positions of points in the picture.  ``waiting`` are the points not tested yet, ``struck``
+    are the points that have been eliminated as inside so far, and ``added`` are the vertices that this stage added.  In
+    the last stage, all points have been tested.  ``boundary`` then has the positions of the points on the boundary of
+    the hull that are not vertices.
     """
 
     stage: Stage
@@ -154,7 +154,7 @@ def _items(frame: Frame) -> Iterator[str]:
 
 
 def _number(index: int, at: Pixel, layout: Layout) -> str:
-    """Return the number of a point as an SVG text that is placed from its dot towards the nearest corner."""
+    """Return the number of a point as an SVG text next to its dot, towards the nearest corner of the picture."""
     is_left, is_upper = at.x < 50 * layout.width, at.y < 50 * layout.height
     place = Pixel(at.x + (-700 if is_left else 700), at.y + (-500 if is_upper else 1400))
     return svg.text(place, str(index + 1), 'text-anchor="end"' if is_left else "")

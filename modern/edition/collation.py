@@ -317,7 +317,7 @@ def shared_errors(collation: Collation) -> tuple[int, int]:
 
 
 def _of_row(collation: Collation, row: Row) -> Iterator[tuple[Verdict, bool]]:
-    """Yield the verdict on each place that a row changes, and True if the transcription reads like our OCR text."""
+    """Yield the verdict on each place that a row changes, and True if the transcription has the OCR's reading."""
     for n, rival in row_rivals(row):
         card = collation.cards[n]
         if card.lines:

@@ -172,9 +172,10 @@ def digest(text: str) -> str:
 
 
 def check_files() -> Iterator[tuple[str, bool, str]]:
-    """Check the hash of each excerpt and of each collation, and, with a common result, those of the decks of grounds.
+    """Check the hash of each excerpt, of each collation and of each deck of a ground.
 
-    Yield triples: the name of the file, True if the hash is right, and a message.
+    Yield triples: the name of the file, True if the hash is right, and a message.  All decks have one triple, with the
+    name ``grounds``.
     """
     table = sources()
     recorded = []

@@ -117,8 +117,8 @@ def _lines(name: str) -> Mapping[str, int]:
 def row_rivals(row: Row) -> Iterator[tuple[int, Rival]]:
     """Yield each card that a row of a committed listing changes, with the replaced reading as a rival.
 
-    A card is given by its index in the edition.  Rows that only change blanks or move words have no rivals.  For a card
-    that the row adds, the text of the rival is empty.
+    The card is given as an index into :func:`edition_cards`.  Rows that only change blanks or move words have no
+    rivals.  For a card that the row adds, the text of the rival is empty.
     """
     if row.text not in programs.TEXTS or row.layer not in programs.built_in(row.text).layers:
         return

@@ -74,7 +74,7 @@ EQUATIONS: tuple[tuple[str, str, str, str], ...] = (
 
 @dataclass(frozen=True, slots=True)
 class Input:
-    """A deck that the listing reads, with the check that uses the deck (``print`` or ``machine``), and the result.
+    """A deck for a built-in program, the check that uses it (``print`` or ``machine``), and the program's result.
 
     ``example`` is the number of the example from which the deck comes, or 0.
     """
@@ -190,7 +190,11 @@ def _result(program: Program, data: Input) -> Result | None:
 
 
 def _disagrees(program: Program, data: Input) -> bool:
-    """Return True if the output of this state of program 1 differs from the printed output in more than its order."""
+    """Return True if the print detects ``program``, a variant of program 1.
+
+    This is the case if the variant does not run, or types other lines than program 1, or punches cards that differ from
+    the printed ones in more than their order.
+    """
     actual = _result(program, data)
     if actual is None or actual.typed != data.result.typed:
         return True

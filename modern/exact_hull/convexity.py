@@ -10,9 +10,9 @@ c. The point o is strictly inside the plane of every facet.
 d. If two polygons share an edge, each is strictly inside the plane of the other, except for the shared edge.
 e. Every polygon is split into triangles from its first corner.  The ray from o through the middle of the first triangle
    meets no other triangle.
-f. For each point that is not a vertex, a triangle is found whose cone from o contains the point.  The point must be
-   inside the plane of this triangle or, if and only if its class is boundary, in the plane.  A point for which no cone
-   is found is evaluated in every plane.
+f. For each point that is not a vertex, a triangle is found whose cone from o contains the point.  The point must lie
+   in the plane of this triangle if its class is boundary, and strictly inside the plane otherwise.  A point for which
+   no cone is found is evaluated in every plane.
 """
 
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""Read points exactly.  Arrays of numbers remain arrays; floats are scaled to integers only when these are accessed.
+"""Read points exactly.  Arrays remain arrays, and floats are scaled to integers only when the integers are accessed.
 
 :class:`Coordinates` also provides the float64 images of the points, with which the filters of the proof compute.
 """

@@ -120,7 +120,7 @@ def _chosen(fast: bool | None, count: int) -> Function | None:
 
 
 def _simplex(points: Coordinates, basis: Sequence[int]) -> list[int]:
-    """Return four points that are far from each other, or those of ``basis`` if the four seem to lie in a plane."""
+    """Return four points that are far from each other, or ``basis`` if those four seem to lie in a plane."""
     # a and b are the extreme points on an axis, c is farthest from their line, d from the plane of a, b and c.
     places = points.images.places
     a, b = int(places[:, 0].argmin()), int(places[:, 0].argmax())

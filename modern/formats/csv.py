@@ -60,7 +60,7 @@ def begins_with_point(text: str) -> bool:
 
 
 def points(text: str, source: str) -> tuple[tuple[Point, ...], tuple[int, ...]]:
-    """Return the points of a list and the line of each point.  Raise FileError if a row is not three decimals."""
+    """Return the points of a list and the line of each point.  Raise FileError unless each row has three decimals."""
     numbered = [(_point(row, source, line), line) for line, row in rows(text, source)]
     if not numbered and (heading := next((line.strip() for line in text.splitlines() if line.strip()), "")):
         raise FileError(f"{source}: expected points x,y,z, found only the heading {quoted(heading)}")

@@ -221,7 +221,7 @@ def distance_text(value: Fraction) -> str:
 
 
 def _plain(value: Decimal) -> str:
-    """Return the number without trailing zeros, and with an exponent if it is long without one: 40, 0.002, but 1e-9."""
+    """Return the number without trailing zeros. A number that would be long gets an exponent: 40, 0.002, but 1e-9."""
     short = value.normalize()
     return f"{short:f}" if -5 < short.adjusted() < _LONGEST else f"{short:g}"
 

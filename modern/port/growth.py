@@ -30,7 +30,7 @@ class Remaining:
         self.tried = 0
 
     def swapped(self, index: int) -> None:
-        """Update the keepers after the remaining point at ``index`` became a vertex and the first one took its place.
+        """Update the keepers after the remaining point at ``index`` became a vertex and the first took its index.
 
         The index is negative if the point was a vertex before: in rounded arithmetic a vertex can lie outside the hull.
         """

@@ -89,8 +89,8 @@ class _Loaded:
 class Desk:
     """A machine with program, decks and operator.
 
-    ``clock`` returns the time in seconds. During a run, the clock is read each time the run has done the work
-    ``small``.
+    ``clock`` returns the time in seconds. During a run, the clock is read after each ``small`` units of work, or more
+    often if the run is slowed down to a pace.
     """
 
     clock: Callable[[], float] = time.monotonic

@@ -106,7 +106,7 @@ def rest() -> tuple[Row, ...]:
 
 
 def _origins(lines: Sequence[Segments]) -> dict[str, list[Segments]]:
-    """Map the id of each line to a list: a witness line, and the lines inserted after it, one of which has the id."""
+    """Map the id of each line to a list that contains it: a witness line and the lines inserted after that line."""
     families: dict[str, list[Segments]] = {}
     family: list[Segments] = []
     for line in lines:

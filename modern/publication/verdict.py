@@ -39,9 +39,9 @@ def verdict(program: Program, deck: Deck, options: Options) -> dict[str, Any]:
     value and the target of the branch in both arithmetics. If there is no such decision, ``lines`` states this, or
     gives the reason why the comparison stopped. ``statement`` is the number of the deciding statement in the run.
     ``says`` is a sentence about the result. ``hull`` is the true hull of the points that the program read, and
-    ``final`` is the hull on the punched cards. Both contain the same two lists: ``missed`` has the vertices that only
-    the true hull has, and ``extra`` has the vertices that only the program's hull has. ``wrong`` has the numbers of
-    those faces of a hull that the other hull lacks.
+    ``final`` is the hull on the punched cards. Each of the two has three lists. ``missed`` has the vertices that only
+    the true hull has, and ``extra`` those that only the program's hull has; both hulls have the same two lists.
+    ``wrong`` has the numbers of the faces of this hull that the other hull lacks.
     """
     record = panel.Record(program)
     executed: list[int] = []

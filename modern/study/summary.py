@@ -42,9 +42,10 @@ class Summary:
         return self.of(cell, route) - self.hits(cell, route)
 
     def sound_from(self, cell: int, route: Callable[[int], str], tried: Sequence[int]) -> int | None:
-        """Return the least number tried such that no sample failed with this or a greater number, or None.
+        """Return the least number tried such that no sample failed with this or a greater number.
 
-        ``tried`` has the numbers in ascending order, and ``route`` returns the route that uses a number.
+        Return None if a sample failed with the greatest number.  ``tried`` has the numbers in ascending order, and
+        ``route`` returns the route that uses a number.
         """
         least = None
         for number in reversed(tried):

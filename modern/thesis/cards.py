@@ -145,7 +145,7 @@ def read_intermediate(cards: Sequence[str]) -> IntermediateDeck | None:
 
 
 def planes_hold(deck: IntermediateDeck) -> bool:
-    """Return True if each plane's equation is zero at the points that its card names (at all points without names)."""
+    """Return True if each plane's equation is zero at the points that its card names, or at all if it names none."""
     unprojected = _unprojected(deck)
     for plane, named in deck.planes:
         points = [unprojected[k - 1] for k in named if 1 <= k <= len(unprojected)] if named else unprojected

@@ -87,13 +87,13 @@ def show(options: argparse.Namespace) -> int:
 
 
 def run_chapter6(options: argparse.Namespace) -> int:
-    """Run the examples of the thesis's chapter 6 on the library.  Return 1 if the results differ from the committed."""
+    """Run the examples of chapter 6 on the library.  Return 1 if the results differ from the committed ones."""
     library()
     return max(_committed(f"{FOLDER}/{name}", text, options.write) for name, text in results().items())
 
 
 def _committed(path: str, text: str, write: bool) -> int:
-    """Compare a result with its committed file, or replace the file if ``write``.  Return 1 if they differ, else 0."""
+    """Compare a result with its committed file.  Replace the file first if ``write``.  Return 1 if they differ, else 0."""
     if write:
         write_text(path, text)
     same = read_text(path) == text

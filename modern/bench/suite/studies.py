@@ -43,7 +43,7 @@ def rows_per_second(name: str) -> float:
 
 
 def first_rows(name: str) -> tuple[float, float]:
-    """Return elapsed and processor seconds from the start of a study, without compiled code, to its first rows."""
+    """Run a study with no compiled code in the cache.  Return elapsed and processor seconds until its first rows."""
     with tempfile.TemporaryDirectory() as folder:
         out, environment = Path(folder) / "out", {**os.environ, "NUMBA_CACHE_DIR": f"{folder}/numba"}
         command = [sys.executable, "-m", "hull1620", "study", name, "--quiet"]

@@ -159,7 +159,7 @@ def _ground(row: Row) -> str:
 
 
 def charts(save: SavePicture) -> Iterator[str]:
-    """Yield the flow charts of the listings, one sheet on each page, made smaller only if it is too high."""
+    """Yield the flow charts of the listings.  Each sheet has a page, and is reduced if it is too high for the page."""
     variants = [name for name in programs.NAMES if name not in programs.TEXTS]
     yield say(f"The site also shows the flow chart of {', '.join(variants)}.") + "\n\n"
     for name in programs.TEXTS:

@@ -1,9 +1,9 @@
 """Study the two failures in about seventy examples that the thesis reports.
 
 Sets like those of the thesis (:mod:`modern.study.families.thesis`), in groups of seventy, go through its programs as
-listed, and with one corrected card.  Without the correction (row P3-025, KNOWN-FAULTS 1), program 3 fails if it removes
-two planes that lie inside the hull and are the last two of its table.  A set fails if the programs do not give its
-hull.  ``samples`` counts the sets and is a multiple of seventy.
+listed, and with one corrected card.  Without the correction (row P3-025, KNOWN-FAULTS 1), program 3 can fail after it
+has removed two planes inside the hull at the end of its table.  A set fails if the programs do not give its hull.
+``samples`` counts the sets and is a multiple of seventy.
 
 These sets have integer coordinates, for which eight digits are sufficient, so no set is rejected as DATA NOT
 ACCEPTABLE.  The data sheet of chapter 5 (p. 58-59) has decimals.  Sets like this data sheet, ``samples`` / 70 for each

@@ -35,7 +35,7 @@ class Draw:
         return self.random.randint(low, high)
 
     def count(self, n: Count) -> int:
-        """Return ``n``, or a random integer in it if it is a range.  Raise FamilyError unless it is within 1 to 51."""
+        """Return ``n``, or a random integer from the range ``n``.  Raise FamilyError unless ``n`` is within 1 to 51."""
         low, high = whole_range(n, "n")
         if not 1 <= low <= high <= MOST:
             raise FamilyError(

@@ -90,7 +90,7 @@ def _solid(solid: Solid, number: str) -> str:
 
 
 def within(hull: Assembled) -> tuple[int, int]:
-    """Return the indices of the first two vertices that Appel and Will's test shows not to be joined by an edge."""
+    """Return the first pair of vertices, as indices, that no edge joins according to Appel and Will's test."""
     for pair in combinations(hull.vertices, 2):
         images = star(hull, pair).images
         if all(vorticity(a, b) > 0 for a, b in zip(images, (*images[1:], images[0]), strict=True)):
