@@ -41,8 +41,8 @@ def satisfied(place: str, outcomes: Iterable[Outcome]) -> Check:
     relations = [*outcomes]
     violated = [name for name, holds in relations if not holds]
     names = [name for name, _ in relations]
-    held = ", ".join(names) if len(names) <= _MOST_NAMES else f"all {len(names)} relations"
-    message = f"violated: {', '.join(violated)}" if violated else f"satisfied: {held}"
+    held = ", ".join(names) if len(names) <= _MOST_NAMES else f"all {len(names)} relations tested"
+    message = f"the print violates: {', '.join(violated)}" if violated else f"the print satisfies: {held}"
     return exhibited(relations and not violated, f"{place}: {message}")
 
 
@@ -141,7 +141,7 @@ def ball_of_diameter_32() -> Check:
     outcomes = [
         ("an odd number of voxels", voxels % 2 == 1),
         # The corners lie on no plane of symmetry, and the reflections in three planes move them in groups of 8.
-        ("numbers of corners divisible by eight", corners % 8 == near_corners % 8 == 0 and (triangles + 4) % 16 == 0),
+        ("numbers of local corners divisible by 8", corners % 8 == near_corners % 8 == 0 and (triangles + 4) % 16 == 0),
         (f"no more triangles than {corners} corners can form", triangles <= 2 * corners - 4),
         ("a number of faces that a hull can have", may_be_convex(near_corners, faces) and faces % 2 == 0),
     ]

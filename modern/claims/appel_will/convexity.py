@@ -33,8 +33,8 @@ def corrected_method(cases: int = CASES) -> Check:
     check = method_against_judge(cases, printed("step3", "step5", "step7"))
     by_9 = _missing_faces("prism.csv", "step9")
     with_5, with_7 = (_missing_faces("one_ray.csv", "step10", step) for step in ("step5", "step7"))
-    case = f"the test of Fig. 12, by step 9, which misses {by_9} faces of a prism, and by step 10, which "
-    case += f"misses {with_5} or {with_7} faces of a hull if step 5 or step 7 is applied as printed"
+    case = f"the rule of Fig. 12; by step 9 as printed, which misses {by_9} faces of a prism; and by step 10 as "
+    case += f"printed, which misses {with_5} or {with_7} faces of a hull if step 5 or step 7 is also applied as printed"
     return check.unless(not star_as_captioned().holds and by_9 and with_5 and with_7, case)
 
 
@@ -99,7 +99,8 @@ def deletion_passes(cases: int = 8) -> Check:
     def ends_as_hull(ring: tuple[Flat, ...]) -> bool:
         return {*_passes(ring)[-1]} == {ring[k] for k in exact_hull([(x, y, 0) for x, y in ring]).vertices}
 
-    check = search(RINGS, lambda r: sides_cross(r) or ends_as_hull(r), cases, "each polygon is reduced to its hull")
+    message = "each polygon is reduced to its hull, or has sides that meet after a pass and are not neighbours"
+    check = search(RINGS, lambda r: sides_cross(r) or ends_as_hull(r), cases, message)
     end = len(_passes(SPIRAL)[-1])
     case = f"a spiral of {len(SPIRAL)} points, which ends as a polygon of {end} points that crosses itself"
     return check.unless(_simple(SPIRAL) and sides_cross(SPIRAL) and not ends_as_hull(SPIRAL), case)
@@ -149,7 +150,7 @@ def start_of_jarvis(cases: int = CASES) -> Check:
         for x, y in product(range(-6, 7), repeat=2):
             if not any(_meet(p, q, (x, y), (9, y)) for p, q in polygon):
                 checks.append(_smallest_angle((x, y), sampled.points) not in sampled.judge.inside)
-    message = f"for {len(checks)} origins from which a ray to the right misses the hull, the point found is on the hull"
+    message = f"for {len(checks)} origins whose ray to the right misses the hull, the first point found is on the hull"
     check = searched(SETS[2], cases, checks, message)
     origin, *points = counterexample_points("jarvis.csv")
     first = _smallest_angle(origin[:2], points)
@@ -173,8 +174,8 @@ def next_points_of_jarvis(cases: int = CASES) -> Check:
             others = [p for p in sampled.points if p != new]
             found = others[_smallest_angle(new, others, math.atan2(new[1] - last[1], new[0] - last[0]))]
             checks.append(sampled.points.index(found) not in sampled.judge.inside)
-    message = f"for each of {len(checks)} sides of polygons, the point with the smallest angle about its end, measured "
-    check = searched(SETS[2], cases, checks, message + "from the direction of the side, is on the hull")
+    message = f"for each of {len(checks)} sides of hulls, the point with the smallest angle about the end of the side, "
+    check = searched(SETS[2], cases, checks, message + "measured from the direction of the side, is on the hull")
     origin, *points = counterexample_points("jarvis_steps.csv")
     listed, remaining = [origin], [*points]
     while len(listed) < 5:

@@ -152,7 +152,7 @@ def _faces(points: Sequence[Point], judge: ExactHull) -> Iterator[bool]:
 
 
 _PROPERTIES = {
-    "2": (_cones, "the planes of the faces at a vertex meet only in it, and all points are on their inner sides"),
+    "2": (_cones, "the planes of the faces at a vertex meet only there, and no point is on their outer sides"),
     "3": (_dihedral, "each edge is on exactly two faces, whose angle inside the hull is less than 180 degrees"),
-    "4": (_faces, "the line of each side of a polygon has all other corners on one side"),
+    "4": (_faces, "all other corners of a polygon are on one side of the line through each of its sides"),
 }

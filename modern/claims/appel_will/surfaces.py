@@ -68,8 +68,8 @@ def changes_of_hull() -> Check:
     block = solid_of_cubes([cube for cube in product(range(3), repeat=3) if cube != (1, 1, 2)])
     changes = [_changes(solid) for solid in (fig_4(), twisted(), block)]
     deleted, new_lines, new_planes = changes[0]
-    message = f"the hull of the polyhedron of Fig. 4 deletes {deleted} points; it has new lines ({new_lines}) and new "
-    message += f"planes ({new_planes})"
+    message = f"{deleted} points of the polyhedron of Fig. 4 are no vertices of its hull, which has new lines "
+    message += f"({new_lines}) and new planes ({new_planes})"
     others = changes[1][0] == 0 < min(changes[1][1:]) and changes[2][0] > 0 == max(changes[2][1:])
     case = "a twisted prism, all points of which remain, and a block with a pit, whose hull has no new line or plane"
     return exhibited(min(changes[0]) > 0, message).unless(others, case)
@@ -218,7 +218,7 @@ def vertex_without_supporting_surface() -> Check:
     values = [[plane_value(plane, point) for point in solid.points] for plane in planes]
     supporting = sum(max(row) <= 0 or min(row) >= 0 for row in values)
     distinct = len(planes) == len(solid.surfaces)
-    message = f"the hull of an object with {len(planes)} surfaces, none on a supporting plane, is a tetrahedron"
+    message = f"the hull of an object with {len(planes)} surfaces, none in a supporting plane, is a tetrahedron"
     return exhibited(distinct and supporting == 0 and exact_hull(solid.points).vertices == (0, 1, 2, 3), message)
 
 

@@ -132,7 +132,7 @@ def incidence_by_coordinates() -> Check:
     within = {(e, f) for e, f in pairs if corners[e] <= corners[f]}
     outcomes += [bool({(e, f), (f, e)} & within) == (f in near[e]) == (e in near[f]) for e, f in pairs]
     outcomes.append(any(near[f] - near[e] for e in cells for f in near[e] & {*cells}))
-    message = f"each of {len(cells)} cells has one element, whose coordinates tell its dimension and incident cells; "
+    message = f"each of {len(cells)} cells has one element, whose index tells the cell's dimension and incident cells; "
     message += "incidence is symmetric and reflexive, but not transitive"
     return exhausted("cells of a block of eight voxels, which a raster repeats, and pairs of these", outcomes, message)
 
@@ -184,7 +184,7 @@ def subcomplexes() -> Check:
                 restricted = {(i, j) for i, j in product(range(size), repeat=2) if (chosen[i], chosen[j]) in relation}
                 part = tuple(dimensions[cell] for cell in chosen), frozenset(restricted)
                 outcomes.append(part in all_complexes and subcomplex((dimensions, relation), {*chosen}) == part)
-    message = f"each of {len(outcomes)} sets of cells has one subcomplex: the restricted relation is transitive"
+    message = f"each of {len(outcomes)} sets of cells determines one subcomplex: the restricted relation is transitive"
     return exhausted("sets of cells of the 3-complexes with up to 4 cells", outcomes, message)
 
 

@@ -25,13 +25,13 @@ def smaller_polyhedron(vertices: str) -> Check:
     *corners, lower = counterexample_points("shortened.csv")
     larger, smaller = exact_hull([*corners, lower]), exact_hull([*corners[:-1], lower])
     wrong = larger.vertices == smaller.vertices == (0, 1, 2, 3) and larger.boundary == (4,)
-    message = "all vertices of the smaller tetrahedron are on the boundary of the larger one"
+    message = "all vertices of a smaller tetrahedron are on the boundary of a larger one"
     if vertices == "moved":
         doubled_middles = [plus(p, q) for p, q in combinations(corners, 2)]
-        message += f", and {lower} is no vertex of that; the midpoints of a tetrahedron's edges form an octahedron"
+        message += f", and {lower} is no vertex of the larger one; the midpoints of the edges form an octahedron"
         return refuted(wrong and len(exact_hull(doubled_middles).vertices) == 6, message)
     four = [p for p in product((0, 1), repeat=3) if sum(p) % 2 == 0]
-    message += "; four corners of a cube, no two of them adjacent, form such a smaller tetrahedron, too"
+    message += "; four corners of a cube, no two of them adjacent, form a smaller tetrahedron in the cube"
     return refuted(wrong and exact_hull(four).dimension == 3, message)
 
 
@@ -55,7 +55,7 @@ def proof_of_the_algorithm(cases: int = CASES) -> Check:
     false = [smaller_polyhedron("interior"), smaller_polyhedron("moved"), coefficients_by_cosines()]
     message = f"the project proves the paper's {sum(lemmas)} lemmas; {construction.message}"
     check = searched(SETS[3], cases, [*lemmas, construction.holds], message)
-    case = f"the printed proof, with {len(false)} false statements and without faces coplanar with the new point"
+    case = f"the printed proof, which has {len(false)} false statements and omits faces coplanar with the new point"
     # A point beyond the edge of the cube with corners from 0 to 2 that is between the faces x = 2 and z = 0.
     visible, hidden, way = (1, 0, 0), (0, 0, -1), minus((4, 1, 0), (2, 1, 0))
     has_zero_coefficient = -dot(hidden, way) == 0 < dot(visible, way)
@@ -115,7 +115,7 @@ def section_angles(cases: int = CASES) -> Check:
             for line, normal in product((upright, way), (visible[:3], hidden[:3])):
                 is_right = dot(normal, outward) > 0 and _cosine(normal, line) + _cosine(normal, outward) == 1
                 (elsewhere if line is way else at_foot).append(is_right)
-    message = f"{len(right)} angles are those of the proof if Q is the foot of the perpendicular from P"
+    message = f"{len(right)} angles are as in the proof if the edge is not sharp and Q is the foot of the perpendicular"
     case = f"{elsewhere.count(False)} angles if Q is an end of the edge, and by {sharp.count(False)} at sharp edges"
     return searched(SETS[3], cases, right, message).unless(False in elsewhere and False in sharp, case)
 

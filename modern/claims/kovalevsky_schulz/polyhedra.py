@@ -76,7 +76,8 @@ def any_order(cases: int = CASES) -> Check:
         for order in (sorted(points), *(points[k:] + points[:k] for k in range(len(points)))):
             outcomes.append(exact_hull([order[k] for k in independent(order)]).dimension == 3)
             outcomes.append({*merged(polyhedron(order)).planes()} == {f.plane for f in judge.facets})
-    return searched(SETS[3], cases, outcomes, f"{len(outcomes) // 2} orders start with a tetrahedron and give the hull")
+    message = f"in {len(outcomes) // 2} orders of points, the construction starts with a tetrahedron and gives the hull"
+    return searched(SETS[3], cases, outcomes, message)
 
 
 @claim("kovalevsky-schulz.127", "kovalevsky-schulz.169", "kovalevsky-schulz.77", full=400)
@@ -91,7 +92,7 @@ def growing_polyhedra(cases: int = CASES) -> Check:
             outcomes += [plane_value(plane, p) <= 0 for plane in cells.planes() for p in before.points]
             was_inside = all(plane_value(plane, new) <= 0 for plane in before.planes())
             outcomes.append(was_inside or new in cells.points)
-    message = "every polyhedron is the intersection of half-spaces and contains all earlier points and polyhedra; "
+    message = "each polyhedron is the intersection of its half-spaces and contains all earlier points and polyhedra; "
     return searched(SETS[3], cases, outcomes, f"{message}each new point becomes a vertex or is already inside")
 
 
@@ -104,7 +105,7 @@ def points_that_see_no_face(cases: int = 1) -> Check:
         inside = point in points or len(points) not in exact_hull([*points, point]).vertices
         outcomes.append(unseen == inside)
         held += inside
-    message = f"the statement holds for {len(outcomes)} points with coordinates 1 and 4, {held} of them in the hull"
+    message = f"each of {len(outcomes)} points sees no face exactly if it is in the hull, as {held} of them are"
     return searched(SETS[3], cases, [*outcomes, held], message)
 
 
@@ -123,7 +124,7 @@ def cells_removed(cases: int = CASES) -> Check:
         remaining_edges = {e for e in judge.edges() if any({*e} <= h for h in hidden)}
         checks.append({e for e in after.edges() if len(points) not in e} == remaining_edges)
     generator = replace(SETS[3], name=f"{SETS[3].name}, and two points outside unless they are in the plane of a face")
-    message = f"each of {len(checks) // 3} points outside a hull replaces the faces that it sees, and edges and "
+    message = f"each of {len(checks) // 3} points outside a hull replaces the faces that it sees, with edges and "
     return searched(generator, cases, checks, f"{message}vertices of only these, by a triangle on each boundary edge")
 
 
@@ -185,8 +186,9 @@ def tests_of_all_voxels() -> Check:
     solid = ball(12)
     corners, voxels = (sorted(map(tuple, p.tolist())) for p in (local_corners(solid, CENTRES), solid.coordinates()))
     tests, pairs, more_tests = _inserted(corners)[1], 13 * len(voxels), _inserted(voxels)[1]
-    message = f"{pairs} tests of pairs and {tests} of faces for {len(corners)} local corners of {len(voxels)} voxels, "
-    return exhibited(tests + pairs < more_tests / 4, f"{message}but {more_tests} tests of faces for all voxels")
+    message = f"{pairs} tests of pairs and {tests} of faces if the hull of {len(voxels)} voxels is found from their "
+    message += f"{len(corners)} local corners, but {more_tests} tests of faces if it is found from all voxels"
+    return exhibited(tests + pairs < more_tests / 4, message)
 
 
 @claim("kovalevsky-schulz.58")
@@ -230,8 +232,8 @@ def quadrangles() -> Check:
     before, after = (coplanar_hull(points, QUADRANGLES) for points in (PYRAMID, LARGER_PYRAMID))
     outcomes += [after.larger == before.larger + 1, [*after.faces] == faces]
     corners = len(ends | between) + 1
-    message = f"the new face has {corners} corners and shares {len(common)} edges with the square; "
-    return exhibited(all(outcomes) and corners == 4, f"{message}the new point is joined to the {len(ends)} ends")
+    message = f"the new face has {corners} corners and shares {len(common)} successive edges with the square; "
+    return exhibited(all(outcomes) and corners == 4, f"{message}P is joined to the {len(ends)} outer ends of these")
 
 
 @claim("kovalevsky-schulz.163", treatment="invisible")
@@ -258,7 +260,7 @@ def economical_encoding(cases: int = 4) -> Check:
         is_restored = _incidences(expanded(cells.economical())) == _incidences(cells)
         return is_restored and on_both_faces and {frozenset((e.start, e.end)) for e in edges} == hull_edges
 
-    message = "the edges, and the faces of each, follow from the vertices of the faces, for triangles and merged faces"
+    message = "all edges and the two faces of each follow from the faces' vertices, for triangles and for merged faces"
     return search(SOLIDS, returns, cases, message)
 
 
@@ -284,5 +286,5 @@ def reconstruction(of: Of, cases: int = 2) -> Check:
         filled: list[list[int]] = Volume(digital_hull(volume).filled, volume.origin).coordinates().tolist()
         return _restored(solid, of) == filled == _restored(filled, of)
 
-    message = "each solid, with its hull filled, is restored from its cell list and from that of the filled solid"
+    message = "from the cell list of its hull, each solid is restored, with all other voxels in the hull"
     return search(SOLIDS, restores, cases, message)

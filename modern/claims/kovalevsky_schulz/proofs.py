@@ -90,13 +90,13 @@ def no_combination() -> Proof:
 
 
 @proves("kovalevsky-schulz.49")
-@proves("kovalevsky-schulz.173", conclusion="visible faces' normals make acute angles with P - Q, others obtuse")
+@proves("kovalevsky-schulz.173", conclusion="normals of visible faces make acute angles with P - Q, others obtuse")
 def choice_of_q() -> Proof:
     n, p, q, r = (point(name, 3) for name in "npqr")
     in_face, difference = zero(dot(n, minus(q, r))), zero(dot(n, minus(p, q)) - dot(n, minus(p, r)))
     says = "the product of the normal with P - Q does not depend on Q"
     return Proof.of(
-        "the scalar product of a face's normal with the vector P - Q is the same for all points Q of the face",
+        "the product of a face's normal with the vector P - Q to a point P is the same for all points Q of the face",
         "The normal is perpendicular to vectors from one point of the face to another. So its product with P - Q is "
         "the same for all points Q of the face. By definition VI the product is positive for a visible face, so that "
         "the angle is acute, and negative for an invisible face, so that the angle is obtuse.",
@@ -146,7 +146,7 @@ def symmetry() -> Proof:
 
 @proves("kovalevsky-schulz.71")
 @proves("kovalevsky-schulz.72", conclusion="the outward normal of the plane is a N_v + b N_n with positive a and b")
-@proves("kovalevsky-schulz.168", conclusion="the scalar product with the normal of the new plane is not positive")
+@proves("kovalevsky-schulz.168", conclusion="no vector from the edge to the polyhedron has a positive product with N_H")
 def lemma_be() -> Proof:
     visible, hidden = point("v", 3), point("n", 3)
     edge, new, way = point("e", 3), point("p", 3), point("w", 3)

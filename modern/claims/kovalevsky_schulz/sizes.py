@@ -43,7 +43,7 @@ def memory_requirements() -> Check:
         own = triangulation_size(2 * int(row.corners) - 4)
         fewer.append(row.integers < row.triangle_integers)
         if row.integers > own:
-            more[row.diameter] = f"{row.integers} integers against {own} of hull triangles at diameter {row.diameter}"
+            more[row.diameter] = f"{row.integers} integers against {own} for hull triangles at diameter {row.diameter}"
     printed = corrected_print("kovalevsky-schulz")
     car, triangles = (numbers_in(printed[name][0])[-1] for name in ("table4-hull", "table4-triangulation"))
     fewer.append(car < triangles)
@@ -82,9 +82,9 @@ def vertices_of_a_face() -> Check:
     for bodies in _bodies():
         points, faces = [sum(len(f.vertices) for f in c.faces) for c in bodies], [len(c.faces) for c in bodies]
         means.append((Fraction(sum(points), sum(faces)), sum(map(Fraction, points, faces)) / len(bodies)))
-    texts = [f"{float(first):.2f} over all faces, {float(second):.2f} over bodies' means" for first, second in means]
-    check = exhibited(all(round(mean) == 5 for mean in means[0]), f"mean numbers of points of a face: {texts[0]}")
-    return check.unless(all(round(mean) != 5 for mean in means[1]), f"the mean numbers of vertices: {texts[1]}")
+    texts = [f"{float(a):.2f} for all faces together, {float(b):.2f} for the half-balls' means" for a, b in means]
+    check = exhibited(all(round(mean) == 5 for mean in means[0]), f"mean number of points of a face: {texts[0]}")
+    return check.unless(all(round(mean) != 5 for mean in means[1]), f"the mean number of vertices: {texts[1]}")
 
 
 @claim("kovalevsky-schulz.81")
@@ -92,7 +92,7 @@ def formula_6() -> Check:
     groups = (*_bodies(), [half_ball_cells(10)])
     points, vertices, alone = (sum(map(_size, group)) / sum(map(economical_size, group)) for group in groups)
     check = exhibited(abs(points - 1) < 0.05, f"formula (6) gives {points:.3f} times the exact number of integers")
-    case = f"lists of vertices only, {vertices:.3f} times, and diameter 10 alone, {alone:.2f} times the exact number"
+    case = f"cell lists without points on edges ({vertices:.3f} times), and diameter 10 alone ({alone:.2f} times)"
     return check.unless(vertices > 1.1 and alone > 1.2, case)
 
 
@@ -117,7 +117,7 @@ def diameter_8() -> Check:
     # A list has 3 V + 2 E integers and, if the number of pairs of each face counts, F more; E = V + F - 2.
     constants = [2 * (row.faces - 2) + more for more in (0, row.faces)]
     exact = any((row.integers - constant) % 5 == 0 for constant in constants)
-    message = f"(6) implies {row.corners} vertices, but {row.faces} faces allow at most {2 * row.faces - 4}; "
+    message = f"formula (6) implies {row.corners} vertices, but {row.faces} faces allow at most {2 * row.faces - 4}; "
     message += "quarter turns permute all vertices except one in groups of 4; "
     message += f"a cell list of V vertices has {' or '.join(f'5 V + {constant}' for constant in constants)} integers"
     return refuted(not possible and not exact, message)

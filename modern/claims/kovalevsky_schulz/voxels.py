@@ -74,7 +74,7 @@ def local_corners_of_vertices(cases: int = 5) -> Check:
         between = {p for p in points if any({plus(p, d), minus(p, d)} <= points for d in DIRECTIONS)}
         return local(solid, VERTICES) == points - between
 
-    return search(SOLIDS, agrees, cases, "the corners found are exactly those between no two opposite neighbours")
+    return search(SOLIDS, agrees, cases, "the local corners are exactly the corners between no two opposite neighbours")
 
 
 def _corners(solid: Voxels) -> set[Point]:
@@ -99,7 +99,7 @@ def voxels_of_ball() -> Check:
     printed, numbers = numbers_of_ball()[0], [ball(32, centre).count for centre in (VOXEL, VERTEX)]
     inner = _ball_without_sphere().count
     check = exhibited(numbers[0] == printed, f"the ball centred on a voxel has {numbers[0]} voxels")
-    case = f"a ball centred on a corner, with {numbers[1]}, and one without the six voxels on its sphere, with {inner}"
+    case = f"a ball centred on a corner, of {numbers[1]} voxels, and one without those on its sphere, of {inner} voxels"
     return check.unless(printed not in (numbers[1], inner), case)
 
 
@@ -160,7 +160,7 @@ def corners_against_centres(cases: int = 2) -> Check:
         within = all(plane_value((*f.plane[:3], 2 * f.plane[3]), c) < 0 for f in outer.facets for c in centres)
         return within and {f.plane for f in outer.facets} == {f.plane for f in grown.facets}
 
-    message = "the hull of the corners contains the centres, and is that of unit cubes around their hull's vertices"
+    message = "the corners' hull contains the centres, and is that of unit cubes at the vertices of the centres' hull"
     return search(SOLIDS, agrees, cases, message)
 
 
@@ -184,7 +184,7 @@ def corners_of_eight_voxels() -> Check:
         ((1, 1, 1) in local(voxels, VERTICES, 6)) == (len(voxels) == 1) == beyond.isdisjoint(_corners(voxels))
         for voxels in subsets
     ]
-    message = "the corner is between two neighbours exactly if several voxels meet there, and then edges are in line"
+    message = "a corner is between two neighbours exactly if several voxels meet there; an edge then continues past it"
     return exhausted("sets of the eight voxels at a corner that contain the first of them", outcomes, message)
 
 
@@ -194,4 +194,5 @@ def marching_cubes() -> Check:
     surface = [plus(voxel, d) for voxel in ((0, 0, 0), (4, 0, 0)) for d in DIRECTIONS if dot(d, d) == 1]
     planes = [facet.plane for facet in exact_hull(surface).facets]
     inner = [p for p in surface if max(plane_value(plane, p) for plane in planes) < 0]
-    return exhibited(inner, f"{len(inner)} of {len(surface)} vertices around two separate voxels are inside the hull")
+    message = f"{len(inner)} of the {len(surface)} vertices that Marching Cubes makes around two separate voxels are "
+    return exhibited(inner, f"{message}inside the hull of these vertices")

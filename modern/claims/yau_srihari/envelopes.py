@@ -63,7 +63,7 @@ def _placed(voxels: tuple[Point, ...]) -> tuple[Point, ...]:
 
 @cache
 def _envelopes_agree(voxels: tuple[Point, ...]) -> bool:
-    """Return True if both envelopes have the exact hull's faces, and the solid and its flat shadow have exact hulls."""
+    """Return True if the envelopes have the exact hull's faces, and digital hulls of solid and projection are exact."""
     points, hull = _placed(voxels), hull_of(voxels)
     judge = exact_hull(points)
     for envelope, sign in ((hull.lower, 1), (hull.upper, -1)):
@@ -98,14 +98,12 @@ def algorithm_as_printed(name: str) -> Check:
 @claim("yau-srihari.48", "yau-srihari.53", "yau-srihari.54", "yau-srihari.59", "yau-srihari.103", full=500)
 @claim("yau-srihari.2", "yau-srihari.4", full=500)
 def envelopes_against_judge(cases: int = 3) -> Check:
-    message = (
-        "the envelopes have the faces of the exact hull, and the digital points between them are those of the hull"
-    )
+    message = "the envelopes have the faces of the exact hull, and the digital points between them are those in it"
     return search(SOLIDS, _envelopes_agree, cases, message)
 
 
 def _only_hulls_pass(voxels: tuple[Point, ...]) -> bool:
-    """Return True if the test of convexity rejects a solid, or its hull less a point, if it lacks a digital point."""
+    """Return True if a solid (unless it is its digital hull) and this hull less a point fail the test of convexity."""
     points = [(x, y, z) for x, y, z in np.argwhere(hull_of(voxels).filled).tolist()]
     others = [points[k] for k in range(len(points)) if k not in exact_hull(points).vertices]
     lacking = [_placed(voxels)] * (len(voxels) < len(points)) + [{*points} - {point} for point in others[:4]]
@@ -115,16 +113,16 @@ def _only_hulls_pass(voxels: tuple[Point, ...]) -> bool:
 @claim("yau-srihari.49", full=500)
 def digital_hull_by_envelopes(cases: int = 3) -> Check:
     disconnected = disconnected_hull()
-    message = "the digital points between the envelopes are those of the exact hull, and no solid tested without some "
-    message += "digital points of its hull passes the test of convexity"
+    message = "the digital points between the envelopes are those of the exact hull, and no tested solid that lacks a "
+    message += "digital point of its hull passes the test of convexity"
     check = search(SOLIDS, lambda voxels: _envelopes_agree(voxels) and _only_hulls_pass(voxels), cases, message)
-    return check.unless(not disconnected.holds, f"a path of stairs: {disconnected.message}")
+    return check.unless(not disconnected.holds, f"voxels like stairs: {disconnected.message}")
 
 
 @claim("yau-srihari.120", names="angle triangles", full=400)
 def corrected_step(names: str, cases: int = 2) -> Check:
     as_printed = {name: algorithm_as_printed(name) for name in names.split()}
-    case = "; ".join(f"{name}: {step.message}" for name, step in as_printed.items())
+    case = "; ".join(f"yau_{name}.csv: {step.message}" for name, step in as_printed.items())
     return envelopes_against_judge(cases).unless(not any(step.holds for step in as_printed.values()), case)
 
 
@@ -142,7 +140,7 @@ def lower_bound_as_printed(cases: int = 2) -> Check:
         starts = [(*step.edge, step.normal, Printed()) for step in steps]
         return _envelopes_agree(voxels) and all(Search(*s).run(tree) == _AsPrinted(*s).run(tree) for s in starts)
 
-    message = "searches with delta_1 at the printed height find the same points of the next faces as the corrected ones"
+    message = "searches with delta_1 at the printed height find the same points of the next faces as corrected searches"
     case = corrected_step("angle", 1).evidence.violation
     return search(SOLIDS, finds_same, cases, message).unless(case, case)
 
@@ -185,10 +183,10 @@ def smallest_convex_solid(cases: int = 3) -> Check:
     path = array_of(voxels := counterexample_points("yau_path.csv"))
     path_fails = np.array_equal(octree_hull(path).filled, path) and not is_digitally_convex(path)
     completions = [p for p in ((1, 0, 1), (1, 1, 1)) if p not in voxels and is_digitally_convex(array_of([*voxels, p]))]
-    message = f"the hull of {hull.solid_voxels} connected voxels has {hull.voxels} digital points, a convex solid; no "
-    message += "solid tested without some digital points of its hull passes the test of convexity"
+    message = f"the {hull.voxels} digital points in the hull of {hull.solid_voxels} connected voxels form a convex "
+    message += "solid; no tested solid that lacks a digital point of its hull passes the test of convexity"
     smallest = map(_only_hulls_pass, (SOLID, *SOLIDS.cases(cases)))
-    case = f"a path of six voxels, which becomes convex if any one of {len(completions)} voxels is added"
+    case = f"a path of six voxels, which becomes convex if one of {len(completions)} other voxels is added"
     return searched(SOLIDS, cases, [passed, *smallest], message).unless(path_fails and len(completions) > 1, case)
 
 
@@ -259,7 +257,7 @@ def first_and_last_heights(cases: int = 5) -> Check:
         least, greatest = {(x, y): z for x, y, z in reversed(points)}, {(x, y): z for x, y, z in points}
         return (floor, {at: high for at, _, high in leaves}) == (least, greatest)
 
-    return search(SOLIDS, agree, cases, "the first leaf gives the floor of each column, and the last one its ceiling")
+    return search(SOLIDS, agree, cases, "the first leaf in each column gives its floor, and the last one its ceiling")
 
 
 @claim("yau-srihari.100", full=400)

@@ -47,7 +47,7 @@ def hull_is_convex() -> Proof:
 @proves("yau-srihari.47", "yau-srihari.96")
 def convex_epigraph() -> Proof:
     return Proof.of(
-        "a function is convex if and only if the set on and above its graph is, and similarly for concave functions",
+        "a function is convex if and only if its epigraph is convex, and concave if and only if its hypograph is",
         "By definition, f is convex if and only if segments between points of its graph are nowhere below it. If f "
         "is convex, a point between two points of the epigraph is on or above the combination of two points of "
         "the graph, which is on or above the graph. Conversely, take two points of the graph itself: a point between "
@@ -164,7 +164,7 @@ def third_corner() -> Proof:
     at_corner, at_point = variables("L_v L_w")
     corner, same_side = positive(at_corner), not_negative(at_corner * at_point)
     return Proof.of(
-        "a plane of theorem 2 supports the envelope if and only if no floor point is opposite to the third corner of p",
+        "a plane of theorem 2 supports the envelope if and only if no floor point is opposite to p's third corner",
         "Let L be the plane's equation, positive above the plane. Floor points are on or above the envelope, which "
         "consists of combinations of them. So the plane supports the envelope from below if and only if L is negative "
         "at no floor point. L is not negative at the third corner v: if p is upright, v is above the edge; if not, the "

@@ -28,7 +28,7 @@ def minimum_not_unique() -> Check:
     for is_convex, end, other in cases:
         both: list[Point] = [(0, 0, 0), end]
         outcomes += [not is_convex(array_of(both)), *(is_convex(array_of([*both, p])) for p in ((1, 0, 0), other))]
-    message = "by 3.2.2 and the test of 3.2.3, two voxels are not convex, but become so with either of two others"
+    message = "by 3.2.2 and the test of 3.2.3, two voxels are not convex, but become convex if either of two is added"
     return exhibited(all(outcomes), message)
 
 
@@ -60,7 +60,7 @@ def queued_edges_reversed(cases: int = 3) -> Check:
 def envelope_algorithm(of_ceiling: bool, cases: int = 2) -> Check:
     needed = [name for name in NAMES if not of_ceiling or name != "truncation"]
     wrong = all(_is_wrong(name, of_ceiling) == (name in needed) for name in NAMES)
-    return envelopes_against_judge(cases).unless(wrong, f"{len(needed)} printed steps, each with a wrong envelope")
+    return envelopes_against_judge(cases).unless(wrong, f"{len(needed)} printed steps, each giving a wrong envelope")
 
 
 def _is_wrong(name: str, of_ceiling: bool) -> bool:
@@ -96,7 +96,7 @@ def extreme_in_row_and_column(cases: int = 6) -> Check:
         checks.append({*ring} == {flat[k][:2] for k in exact_hull(flat).vertices})
         checks += [area(p, q, at) >= 0 for p, q in sides(ring) for at in ring]
     message = "extreme points are extreme in their row and column, and remain in A; floor and ceiling of A give "
-    return searched(FLOORS, cases, checks, f"{message}the corners of its hull in counterclockwise order")
+    return searched(FLOORS, cases, checks, f"{message}the corners of H(A) in counterclockwise order")
 
 
 @claim("yau-srihari.80", full=1_000)
@@ -149,14 +149,14 @@ def angle_counts(cases: int = 3) -> Check:
     counts = [_angles(octree_hull(array)) for array in (*balls, *map(array_of, SOLIDS.cases(cases)))]
     (whole_of_4, _, _, with_bounds_of_4), (whole, preprocessed, by_search, with_bounds), *_ = counts
     outcomes = [by_search < preprocessed < whole, with_bounds < whole, *(c[2] <= c[1] <= c[0] for c in counts)]
-    message = f"ball of diameter 8: {whole} angles of points, {preprocessed} after preprocessing, {by_search} with the "
-    check = searched(SOLIDS, cases, outcomes, f"{message}search too, {with_bounds} if its bounds are counted")
+    message = f"a ball of diameter 8 needs {whole} angles of points, {preprocessed} after preprocessing, {by_search} "
+    check = searched(SOLIDS, cases, outcomes, f"{message}with the search too, {with_bounds} if its bounds are counted")
     case = f"the bounds: with them, a ball of diameter 4 needs {with_bounds_of_4} angles instead of {whole_of_4}"
     return check.unless(with_bounds_of_4 > whole_of_4, case)
 
 
 def _angles(hull: OctreeHull) -> tuple[int, int, int, int]:
-    """Count angles at edges: of points beyond an edge, of those in A, of visited points, and of these and bounds."""
+    """Count angles at edges: of all points beyond an edge, of those in A, of those visited, and these with bounds."""
     reduced = written(no_columns(hull.side), {(x, y): Leaf(z) for x, y, z in hull.lower.reduced})
     searches = [_Counted(*step.edge, step.normal, Printed()) for step in hull.lower.steps]
     # Without the search, the angles of all points beyond the edge are computed.
