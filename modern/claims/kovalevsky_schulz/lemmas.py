@@ -4,13 +4,13 @@ from collections.abc import Sequence
 from fractions import Fraction
 from itertools import combinations, product
 
-from modern.claims import sampled_sets
+from modern.claims import sampled_sets as sets
 from modern.claims.evidence import Check, Generator, claim, refuted, search, searched
 from modern.claims.hulls import exact_hull
 from modern.claims.kovalevsky_schulz.polyhedra import OUTSIDE, growing_polyhedra, horizon, hulls, polyhedron
 from modern.claims.kovalevsky_schulz.proofs import lemma_be, lemma_ch, lemma_lz
 from modern.claims.kovalevsky_schulz.voxels import DIRECTIONS, KINDS, SOLIDS, Voxels, local, points_of
-from modern.claims.sampled_sets import CASES, SETS, Plane, Point, counterexample_points, plane_through, plane_value
+from modern.claims.sampled_sets import CASES, SETS, counterexample_points, is_closed_curve, plane_through, plane_value
 from modern.digital.solids import listed
 from modern.exact_hull import ExactHull
 from modern.geometry.vectors import cross, dot, minus, plus
@@ -62,18 +62,18 @@ def proof_of_the_algorithm(cases: int = CASES) -> Check:
     return check.unless(not any(statement.holds for statement in false) and has_zero_coefficient, case)
 
 
-def _planes_at(edge: tuple[int, int], judge: ExactHull, new: Point) -> list[Plane]:
+def _planes_at(edge: tuple[int, int], judge: ExactHull, new: sets.Point) -> list[sets.Plane]:
     """Return the outward planes of the two faces at an edge of a hull, sorted by their values at the new point."""
     return sorted((f.plane for f in judge.facets if {*edge} <= {*f.polygon}), key=lambda f: plane_value(f, new))
 
 
-def _new_normal(edge: tuple[int, int], points: Sequence[Point], new: Point) -> Point:
+def _new_normal(edge: tuple[int, int], points: Sequence[sets.Point], new: sets.Point) -> sets.Point:
     """Return the outward normal of the face that joins an edge to the new point."""
     corners = {*edge, len(points)}
     return next(f.plane[:3] for f in exact_hull([*points, new]).facets if corners <= {*f.polygon})
 
 
-def _is_general(points: tuple[Point, ...]) -> bool:
+def _is_general(points: tuple[sets.Point, ...]) -> bool:
     """Return True if no four points are coplanar and the last one is outside the hull of the others."""
     if any(plane_value(plane_through(p, q, r), s) == 0 for p, q, r, s in combinations(points, 4)):
         return False
@@ -81,7 +81,7 @@ def _is_general(points: tuple[Point, ...]) -> bool:
     return len(first) > 3 and any(plane_value(facet.plane, new) > 0 for facet in exact_hull(first).facets)
 
 
-NO_FOUR_COPLANAR: Generator[tuple[Point, ...]] = Generator(
+NO_FOUR_COPLANAR: Generator[tuple[sets.Point, ...]] = Generator(
     f"{SETS[3].name}, and a point outside their hull, no four of them coplanar",
     14,
     lambda random: (*SETS[3].draw(random), random.choice(OUTSIDE)),
@@ -92,8 +92,7 @@ NO_FOUR_COPLANAR: Generator[tuple[Point, ...]] = Generator(
 @claim("yau-srihari.14", full=400)
 def closed_boundary(cases: int = CASES) -> Check:
     message = "the boundary between the light and the dark faces is one closed curve"
-    is_closed = sampled_sets.is_closed_curve
-    return search(NO_FOUR_COPLANAR, lambda p: is_closed(horizon(exact_hull(p[:-1]), p[-1])), cases, message)
+    return search(NO_FOUR_COPLANAR, lambda p: is_closed_curve(horizon(exact_hull(p[:-1]), p[-1])), cases, message)
 
 
 @claim("kovalevsky-schulz.73", full=400)
