@@ -28,7 +28,7 @@ def smaller_polyhedron(vertices: str) -> Check:
     message = "all vertices of a smaller tetrahedron are on the boundary of a larger one"
     if vertices == "moved":
         doubled_middles = [plus(p, q) for p, q in combinations(corners, 2)]
-        message += f", and {lower} is no vertex of the larger one; the midpoints of the edges form an octahedron"
+        message += f", and {lower} is no vertex of the larger one; the midpoints of its edges form an octahedron"
         return refuted(wrong and len(exact_hull(doubled_middles).vertices) == 6, message)
     four = [p for p in product((0, 1), repeat=3) if sum(p) % 2 == 0]
     message += "; four corners of a cube, no two of them adjacent, form a smaller tetrahedron in the cube"

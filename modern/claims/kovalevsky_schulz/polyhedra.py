@@ -105,7 +105,7 @@ def points_that_see_no_face(cases: int = 1) -> Check:
         inside = point in points or len(points) not in exact_hull([*points, point]).vertices
         outcomes.append(unseen == inside)
         held += inside
-    message = f"each of {len(outcomes)} points sees no face exactly if it is in the hull, as {held} of them are"
+    message = f"of {len(outcomes)} points with coordinates 1 and 4, exactly the {held} in the hull see no face"
     return searched(SETS[3], cases, [*outcomes, held], message)
 
 
@@ -286,5 +286,5 @@ def reconstruction(of: Of, cases: int = 2) -> Check:
         filled: list[list[int]] = Volume(digital_hull(volume).filled, volume.origin).coordinates().tolist()
         return _restored(solid, of) == filled == _restored(filled, of)
 
-    message = "from the cell list of its hull, each solid is restored, with all other voxels in the hull"
+    message = "the cell lists of the hulls of a solid and of the filled solid restore the solid with its hull filled"
     return search(SOLIDS, restores, cases, message)

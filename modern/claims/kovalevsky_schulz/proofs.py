@@ -146,7 +146,7 @@ def symmetry() -> Proof:
 
 @proves("kovalevsky-schulz.71")
 @proves("kovalevsky-schulz.72", conclusion="the outward normal of the plane is a N_v + b N_n with positive a and b")
-@proves("kovalevsky-schulz.168", conclusion="no vector from the edge to the polyhedron has a positive product with N_H")
+@proves("kovalevsky-schulz.168", conclusion="products of such vectors with the normal of the new plane are at most 0")
 def lemma_be() -> Proof:
     visible, hidden = point("v", 3), point("n", 3)
     edge, new, way = point("e", 3), point("p", 3), point("w", 3)

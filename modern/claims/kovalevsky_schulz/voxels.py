@@ -160,7 +160,7 @@ def corners_against_centres(cases: int = 2) -> Check:
         within = all(plane_value((*f.plane[:3], 2 * f.plane[3]), c) < 0 for f in outer.facets for c in centres)
         return within and {f.plane for f in outer.facets} == {f.plane for f in grown.facets}
 
-    message = "the corners' hull contains the centres, and is that of unit cubes at the vertices of the centres' hull"
+    message = "the corners' hull contains the centres and is that of unit cubes around vertices of the centres' hull"
     return search(SOLIDS, agrees, cases, message)
 
 

@@ -98,7 +98,7 @@ def algorithm_as_printed(name: str) -> Check:
 @claim("yau-srihari.48", "yau-srihari.53", "yau-srihari.54", "yau-srihari.59", "yau-srihari.103", full=500)
 @claim("yau-srihari.2", "yau-srihari.4", full=500)
 def envelopes_against_judge(cases: int = 3) -> Check:
-    message = "the envelopes have the faces of the exact hull, and the digital points between them are those in it"
+    message = "the envelopes have the exact hull's faces, and the digital points between them are those of the hull"
     return search(SOLIDS, _envelopes_agree, cases, message)
 
 

@@ -28,7 +28,7 @@ def minimum_not_unique() -> Check:
     for is_convex, end, other in cases:
         both: list[Point] = [(0, 0, 0), end]
         outcomes += [not is_convex(array_of(both)), *(is_convex(array_of([*both, p])) for p in ((1, 0, 0), other))]
-    message = "by 3.2.2 and the test of 3.2.3, two voxels are not convex, but become convex if either of two is added"
+    message = "two voxels fail definition 3.2.2 (or the test of 3.2.3), but satisfy it if either of two others is added"
     return exhibited(all(outcomes), message)
 
 
