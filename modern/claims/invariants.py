@@ -11,7 +11,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import combinations, pairwise
+from itertools import combinations, pairwise, product
 
 from modern.claims.evidence import Check, claim, exhibited
 from modern.claims.published import PAPERS, printed_lines
@@ -254,6 +254,11 @@ def lines_and_loops(number: int) -> Check:
         corners = [[lines[abs(n)][n < 0] for n in loop] for loop in loops]
         outcomes.append(("the map follows from the loops", _columns(printed["fig23-map"]) == corners))
         outcomes.append(("the surfaces form a sphere", is_sphere(corners)))
+        # The OCR lost the first and the third entry of the third loop.
+        lost, kept, lost_too, *rest = loops[2]
+        pairs = product((*lines, *(-label for label in lines)), repeat=2)
+        closing = [(a, b) for a, b in pairs if is_closed_loop([a, kept, b, *rest], lines)]
+        outcomes.append(("only the restored entries close loop 3", closing == [(lost, lost_too)]))
     return satisfied(f"Fig. {number}", outcomes)
 
 

@@ -89,7 +89,7 @@ def coplanar_loops(cases: int = CASES) -> Check:
         threes = [{*a, *b} for a, b in combinations(judge.edges(), 2) if len({*a, *b}) == 3]
         checks += [sum(three <= {*facet.polygon} for facet in judge.facets) <= 1 for three in threes]
         checks.append(len({facet.plane for facet in judge.facets}) == len(judge.facets))
-    message = "no two edges with a common end lie in the same two loops, and no two loops lie in one plane"
+    message = "the three points of two edges with a common end are on at most one loop; no two loops are coplanar"
     return searched(SETS[3], cases, checks, f"in {cases} drawn and 3 fixed sets, {message}")
 
 
