@@ -69,7 +69,7 @@ class Field:
 
 @dataclass(frozen=True, slots=True)
 class CardShape:
-    """A card that a FORMAT punches: one of the cards that it punches for a list of ``values`` numbers.
+    """One of the cards that a FORMAT punches for a list of ``values`` numbers.
 
     ``record`` is the number of the card among these cards, counted from 1 and including blank cards.
     """

@@ -156,9 +156,10 @@ class Planes:
         return signs
 
     def outside(self, facets: Ints, indices: Ints) -> Ints:
-        """Return the indices, in the arguments, of the pairs of a facet and a point that is not in the facet's plane.
+        """Return the positions of the pairs whose point is not in the plane of their facet.
 
-        The given pairs must include the base point of each facet.
+        Pair k consists of ``facets[k]`` and the point ``indices[k]``.  The pairs must include the base point of each
+        facet.
         """
         self.evaluations += len(facets)
         if not self._small:

@@ -99,7 +99,10 @@ def count_above(coordinates: NDArray[Any], start: int, end: int, plane_equation:
 
 
 def farthest_outside(coordinates: NDArray[Any], count: int, plane_equation: Any, e: Any) -> int:
-    """Return the index of the point farthest outside a plane (the last of equally far ones), or -1 if none is."""
+    """Return the index of the point farthest outside a plane, or -1 if none is outside.
+
+    If several points are equally far, the index is that of the last of them.
+    """
     # A value within the slack counts as zero. The difference computed here is a zero of the number type of the values.
     largest = e if e > 0 else e - e
     index = -1

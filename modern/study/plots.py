@@ -333,7 +333,7 @@ def _standing(axes: Any, chart: Chart) -> None:
 
 
 def _name_bars(axes: Any, chart: Chart, width: float, top: float) -> None:
-    """Write the name of each series, as vertical text above all bars, over its bar in the highest group."""
+    """Write the names of the series, rotated by 90 degrees, over the bars of the highest group, above all bars."""
     heights = {name: sum(e.value for s in chart.series for at, e in s.points if at == name) for name in names(chart)}
     left = list(heights).index(max(heights, key=lambda name: heights[name])) - 0.4
     axes.set_yticks([tick for tick in axes.get_yticks() if tick <= top])

@@ -47,8 +47,8 @@ RowsOrError = tuple[str, str]
 def chunk_text(cell: Cell, seed: int, chunk: Chunk, soon: bool = False) -> str:
     """Return the rows of a chunk as JSONL text, one line per sample.
 
-    seed: the seed of the study.  soon: True to use the interpreter until another process has compiled
-    the engine.
+    seed: the seed of the study.  soon: True to use the interpreter until another process has compiled the
+    engine.
     """
     samples = [judge(draw_sample(cell, seed, index), f"sample {index}") for index in range(chunk.start, chunk.stop)]
     runs = Runs(soon and must_compile())

@@ -54,7 +54,7 @@ def first_disagreement(run: HullRun, options: Options) -> str:
 
     ``options`` are those of the run.
 
-    In the exact run, the cards that pass from one program to the next also hold all digits of each number.  If that run
+    In the exact run, numbers keep all their digits when one program passes them to the next on cards.  If the exact run
     cannot continue, for example because it divides by zero, the sentence gives the reason.
     """
     exact = replace(options, numbers=numbers("exact"), uncut=True)

@@ -93,7 +93,7 @@ def run_chapter6(options: argparse.Namespace) -> int:
 
 
 def _committed(path: str, text: str, write: bool) -> int:
-    """Compare a result with its committed file.  Replace the file first if ``write``.  Return 1 if they differ, else 0."""
+    """Compare a result with its committed file, replaced first if ``write``.  Return 1 if they differ, else 0."""
     if write:
         write_text(path, text)
     same = read_text(path) == text

@@ -204,7 +204,7 @@ class AccessibleTranslator(HTML5Translator):
             self.body.append("</a>")
 
     def visit_entry(self, node: nodes.Element) -> None:
-        """End an empty heading cell with the tag of a data cell, because :meth:`starttag` began it so."""
+        """End an empty heading cell as a data cell, because :meth:`starttag` began it as a data cell."""
         super().visit_entry(node)
         if isinstance(node.parent.parent, nodes.thead) and not node.astext():
             self.context[-1] = "</td>\n"
