@@ -1,24 +1,7 @@
 """Proofs of equations and tests of Appel and Will; :mod:`modern.claims.algebra` checks the steps."""
 
-from modern.claims.algebra import (
-    IMPOSSIBLE,
-    Proof,
-    Step,
-    bracket,
-    combination_satisfies,
-    cross,
-    dot,
-    minus,
-    not_negative,
-    point,
-    polynomial,
-    positive,
-    proves,
-    term,
-    total,
-    variables,
-    zero,
-)
+from modern.claims import algebra
+from modern.claims.algebra import Proof, Step, bracket, cross, dot, minus, point, positive, proves, term, zero
 
 
 @proves("appel-will.52", "thesis.214")
@@ -33,19 +16,19 @@ def inside_triangle() -> Proof:
         "point, divided by that of the corners, are the weights of the point as a combination of the corners. The "
         "weights are unique because the corners are not collinear. A point is inside exactly if all are positive.",
         *(Step("the point is the combination", {}, zero(area * p[k] - combined[k])) for k in (0, 1)),
-        Step("the weights have the sum 1", {}, zero(area - total(weights))),
+        Step("the weights have the sum 1", {}, zero(area - algebra.total(weights))),
     )
 
 
 @proves("appel-will.49", "appel-will.50", "appel-will.51")
 def triangle_area() -> Proof:
     p, u = point("p", 2), point("u", 2)
-    along, height = variables("along height")
+    along, height = algebra.variables("along height")
     q = tuple(a + b for a, b in zip(p, u, strict=True))
     # The third corner: p plus a multiple of u, plus another multiple of u turned left by 90 degrees.
     r = (p[0] + along * u[0] - height * u[1], p[1] + along * u[1] + height * u[0])
     # Each row of the determinant has the coordinates x and y of a point, and 1.
-    rows = [(*corner, polynomial(1)) for corner in (p, q, r)]
+    rows = [(*corner, algebra.polynomial(1)) for corner in (p, q, r)]
     return Proof.of(
         "half of the determinant is the area of the triangle; it is positive if the corners run counterclockwise, "
         "negative if they run clockwise, and 0 if they are collinear",
@@ -61,7 +44,7 @@ def triangle_area() -> Proof:
 @proves("appel-will.139", conclusion="a line in the direction of the unit normal is perpendicular to the plane")
 def lines_and_planes() -> Proof:
     p, q, n = (point(name, 3) for name in "pqn")
-    d, t, length = variables("d t l")
+    d, t, length = algebra.variables("d t l")
     unit, line = {"unit": zero(dot(n, n) - 1)}, {"line": zero(dot(n, minus(q, p)))}
     plane, other = {"plane": zero(dot(n, p) + d)}, {"other": zero(dot(n, q) + d)}
     along = tuple(a + t * b for a, b in zip(p, n, strict=True))
@@ -114,7 +97,7 @@ def equal_images() -> Proof:
 
 @proves("appel-will.38")
 def fewer_pairs() -> Proof:
-    (m,) = variables("m")
+    (m,) = algebra.variables("m")
     n = m + 6
     difference = n * (n - 1) * (n - 2) - 3 * n * (n - 1)
     # The difference is m^3 + 12 m^2 + 41 m + 30.
@@ -124,12 +107,12 @@ def fewer_pairs() -> Proof:
         "six or more points have fewer pairs than triples",
         "The number of triples of n points is larger than that of pairs by n (n - 1) (n - 5) / 6. This is positive for "
         "n = 6 + m if m is not negative.",
-        Step("the difference is positive", {"m": not_negative(m)}, positive(difference), terms),
+        Step("the difference is positive", {"m": algebra.not_negative(m)}, positive(difference), terms),
     )
 
 
 def fewer_wasted_tests() -> Proof:
-    u, m = variables("u m")
+    u, m = algebra.variables("u m")
     vertices, n = u + 2, m + 4
     difference = (3 * vertices - 6) * (n - 2) - 3 * (2 * vertices - 4)
     return Proof.of(
@@ -149,7 +132,7 @@ def points_of_hull() -> Proof:
         "The points of the hull are the combinations of the vertices, and all vertices are on the inner side of each "
         "plane. So the object determines its hull, and the hull stays the same if any of the infinitely many points "
         "inside it is added to the object, for example as the apex of a pit.",
-        *combination_satisfies(),
+        *algebra.combination_satisfies(),
     )
 
 
@@ -159,14 +142,14 @@ def projections() -> Proof:
         "the image of the hull of points is the hull of their images",
         "The coordinates of an image are linear functions of the point. The images of all combinations of the vertices "
         "are therefore all combinations of the images of the vertices, which form a convex polygon.",
-        *combination_satisfies()[:1],
+        *algebra.combination_satisfies()[:1],
     )
 
 
 @proves("appel-will.72")
 def three_planes() -> Proof:
     u, v, w = (point(name, 3) for name in "uvw")
-    (side,) = variables("side")
+    (side,) = algebra.variables("side")
     volume, square = dot(u, cross(v, w)), dot(u, u)
     opposite = {"u": positive(side), "-u": positive(-side)}
     return Proof.of(
@@ -177,7 +160,7 @@ def three_planes() -> Proof:
         "that meet in u are w x u and u x v. The triple product of u and these normals is the square of u times "
         "[u v w]. It is positive, so that u is an outside corner, and so are v and w. Fewer planes, or three planes "
         "through one line, make no vertex.",
-        Step("no half-space contains u and -u", opposite, IMPOSSIBLE, (term("u"), term("-u"))),
+        Step("no half-space contains u and -u", opposite, algebra.IMPOSSIBLE, (term("u"), term("-u"))),
         Step("it is the square times [u v w]", {}, zero(dot(u, cross(cross(w, u), cross(u, v))) - square * volume)),
     )
 
@@ -186,7 +169,7 @@ def least_surface() -> Proof:
     n, m = point("n", 3), point("m", 3)
     difference = dot(n, n) * dot(m, m) - dot(n, m) * dot(n, m)
     terms = tuple(term("", component) for component in cross(n, m))
-    step = Step("the square of n m is at most that of n times that of m", {}, not_negative(difference), terms)
+    step = Step("the square of n m is at most that of n times that of m", {}, algebra.not_negative(difference), terms)
     return Proof.of(
         "the hull has the least surface of all convex bodies that contain the points",
         "Each plane of the hull cuts a part off such a body, or nothing. The surface of this part, projected onto the "
@@ -228,7 +211,7 @@ def outside_corners() -> Proof:
 
 @proves("appel-will.75")
 def concave_point() -> Proof:
-    first, second = variables("L_u L_v")
+    first, second = algebra.variables("L_u L_v")
     hypotheses = {"u": positive(-first), "v": positive(-second), "opposite": positive(first + second)}
     terms = term("u"), term("v"), term("opposite")
     return Proof.of(
@@ -236,5 +219,5 @@ def concave_point() -> Proof:
         "At a vertex of the hull some linear function L decreases along both sides u and v of the surface. At a "
         "concave point the surface contains points in the direction -u-v, along which L would have to decrease too. "
         "That is impossible.",
-        Step("L cannot decrease along u, v and -u-v", hypotheses, IMPOSSIBLE, terms),
+        Step("L cannot decrease along u, v and -u-v", hypotheses, algebra.IMPOSSIBLE, terms),
     )
