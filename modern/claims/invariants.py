@@ -217,7 +217,7 @@ def figure_4() -> Check:
     return satisfied("Fig. 4", [("each line is on two surfaces, and V - E + F = 2", is_sphere(rows))])
 
 
-def _columns(rows: Sequence[str]) -> list[list[int]]:
+def columns(rows: Sequence[str]) -> list[list[int]]:
     """Return the columns of a table whose cells are separated by tabs, without the column of row labels."""
     cells = [row.split("\t")[1:] for row in rows]
     return [[n for row in cells if k < len(row) for n in numbers_in(row[k])] for k in range(len(cells[0]))]
@@ -236,7 +236,7 @@ def lines_and_loops(number: int) -> Check:
     printed = corrected_print("appel-will")
     first, second = (printed[name] for name in ("fig22-loops-1-3", "fig22-loops-4-5"))
     fig22 = [numbers_in(cell) for row in (first[0], second[0]) for cell in row.split("\t")[1::2]]
-    loops = fig22 if number == 14 else _columns(printed["fig23-loops"])
+    loops = fig22 if number == 14 else columns(printed["fig23-loops"])
     rows = map(numbers_in, printed["fig14" if number == 14 else "fig23-edges"])
     lines = {label: (start, end) for label, start, end in rows}
     uses = Counter(abs(n) for loop in loops for n in loop)
@@ -252,7 +252,7 @@ def lines_and_loops(number: int) -> Check:
             outcomes.append((f"IUC of line {label}", counts[::2] == [used[label] for used in uses_after]))
     else:
         corners = [[lines[abs(n)][n < 0] for n in loop] for loop in loops]
-        outcomes.append(("the map follows from the loops", _columns(printed["fig23-map"]) == corners))
+        outcomes.append(("the map follows from the loops", columns(printed["fig23-map"]) == corners))
         outcomes.append(("the surfaces form a sphere", is_sphere(corners)))
         # The OCR lost the first and the third entry of the third loop.
         lost, kept, lost_too, *rest = loops[2]

@@ -11,6 +11,7 @@ from modern.claims.evidence import Check, Generator, claim, exhausted, exhibited
 from modern.claims.hulls import exact_hull
 from modern.claims.sampled_sets import CASES, SETS, Point, counterexample_points, sampled_sets
 from modern.geometry.mesh import sides
+from modern.geometry.vectors import area_vector, dot, minus
 from modern.papers.appel_will import CORRECTED, Method, appel_will, printed
 from modern.papers.appel_will.star import as_corrected, as_printed, on_one_ray, project, star_polygon, vorticity
 
@@ -61,15 +62,18 @@ def method_against_judge(cases: int = CASES, method: Method = CORRECTED) -> Chec
         # A face is compared by its sides, so that the order of its points counts.
         rings = [facet.polygon for facet in sampled.judge.facets], hull.surfaces
         faces, loops = ({frozenset(map(frozenset, sides(ring))) for ring in part} for part in rings)
-        checks.append(hull.edges == sampled.judge.edges() and loops == faces)
-        checks.append(hull.table.closed and {*hull.table.uses} == {2})
+        checks += [hull.edges == sampled.judge.edges(), loops == faces, hull.table.closed, {*hull.table.uses} == {2}]
         # Each line of a loop starts at a point of the map, at LC1 if its entry is positive, and ends at the next point.
         for loop, ring in zip(hull.table.loops, hull.surfaces, strict=True):
             ends = [hull.edges[abs(entry) - 1][:: 1 if entry > 0 else -1] for entry in loop.entries]
             checks.append(all(ends[k - 1][1] == point == ends[k][0] for k, point in enumerate(ring)))
+            normal = area_vector(sampled.points, ring)
+            values = [dot(normal, minus(point, sampled.points[ring[0]])) for point in sampled.points]
+            checks.append(min(values) == 0 or max(values) == 0)
     message = f"for {cases} sets of points, the loops run around the faces of the exact hull, which are convex, and "
-    message += "use each edge twice; the map lists the points that neighbouring lines of a loop have in common: the "
-    message += "end LC1 of a line with a positive entry in the loop, and the end LC2 of a line with a negative entry"
+    message += "use each edge twice; no plane of a loop has points on both sides; the map lists the points that "
+    message += "neighbouring lines of a loop have in common: the end LC1 of a line with a positive entry in the loop, "
+    message += "and the end LC2 of a line with a negative entry"
     return searched(SETS[3], cases, checks, message)
 
 
@@ -78,11 +82,8 @@ def draw_points(random: Random, count: tuple[int, int], coordinates: tuple[int, 
     return tuple((random.randint(*coordinates), random.randint(*coordinates)) for _ in range(random.randint(*count)))
 
 
-# A corridor that winds around itself; in the end its outer wall remains, all points of which are convex.
-SPIRAL: tuple[Flat, ...] = (
-    *((-1, 0), (6, 0), (6, 6), (0, 6), (0, 2), (4, 2), (4, 4)),
-    *((3, 4), (3, 3), (1, 3), (1, 5), (5, 5), (5, 1), (-1, 1)),
-)
+# A corridor that winds around itself, by x and y; in the end its outer wall remains, all points of which are convex.
+SPIRAL = (*zip((-1, 6, 6, 0, 0, 4, 4, 3, 3, 1, 1, 5, 5, -1), (0, 0, 6, 6, 2, 2, 4, 4, 3, 3, 5, 5, 1, 1), strict=True),)
 RINGS: Generator[tuple[Flat, ...]] = Generator(
     "simple polygons of 4 to 8 corners on a grid of 7 by 7",
     4,
@@ -138,8 +139,7 @@ def _meet(p: Flat, q: Flat, r: Flat, s: Flat) -> bool:
 
 def _simple(ring: Sequence[Flat]) -> bool:
     """Return True if a polygon is counterclockwise and no sides meet except neighbours at their common end."""
-    is_counterclockwise = sum(vorticity(p, q) for p, q in sides(ring)) > 0
-    return len({*ring}) == len(ring) and not _crosses(ring) and is_counterclockwise
+    return len({*ring}) == len(ring) and not _crosses(ring) and sum(vorticity(p, q) for p, q in sides(ring)) > 0
 
 
 @claim("appel-will.15", full=400)
@@ -255,9 +255,8 @@ def new_lines(cases: int = 10) -> Check:
         lines, edges = ({*map(frozenset, sides(corners))} for corners in (range(len(ring)), polygon))
         return len(polygon) < len(ring) and not edges <= lines
 
-    square = [(0, 0), (1, 0), (1, 1), (0, 1)]
     check = search(NONCONVEX, is_changed, cases, "each hull has fewer corners than its polygon, and a new line")
-    return check.unless(not is_changed(square), "a square, which is its own hull")
+    return check.unless(not is_changed([(0, 0), (1, 0), (1, 1), (0, 1)]), "a square, which is its own hull")
 
 
 IMAGES: Generator[tuple[Flat, ...]] = Generator(
@@ -294,8 +293,7 @@ def order_on_one_ray(cases: int = 10) -> Check:
     def is_listed_order(images: tuple[Flat, ...]) -> bool:
         near, far = images[0], (2 * images[0][0], 2 * images[0][1])
         rest = [image for image in images if image not in (near, far)]
-        orders = [near, far], [far, near]
-        return all([p for p in star_polygon([*order, *rest]) if p not in rest] == order for order in orders)
+        return all([p for p in star_polygon([*o, *rest]) if p not in rest] == o for o in ([near, far], [far, near]))
 
     message = "if one of two images on a ray is twice as far as the other, either may come first in the star polygon"
     return search(IMAGES, is_listed_order, cases, message)
@@ -318,8 +316,7 @@ def step_as_printed(step: str) -> Check:
     table, corrected = (appel_will(points, method=method).table for method in (printed(step), CORRECTED))
     firsts = [(abs(a.entries[0]), abs(b.entries[0])) for a, b in zip(table.loops, corrected.loops, strict=True)]
     begins = [f"loop {n} begins with line {a} instead of {b}" for n, (a, b) in enumerate(firsts, 1) if a != b]
-    message = f"with the printed step number, {', '.join(begins)}"
-    return slip(not begins, corrected.closed, "step 3", message)
+    return slip(not begins, corrected.closed, "step 3", f"with the printed step number, {', '.join(begins)}")
 
 
 @claim("appel-will.148")

@@ -35,8 +35,7 @@ def faces_from_graph(cases: int = CASES) -> Check:
 
 
 def _graph(judge: ExactHull) -> Graph:
-    edges = judge.edges()
-    return {k: frozenset(sum(edge) - k for edge in edges if k in edge) for k in judge.vertices}
+    return {k: frozenset(sum(edge) - k for edge in judge.edges() if k in edge) for k in judge.vertices}
 
 
 def _cycles(graph: Graph) -> Iterator[frozenset[int]]:

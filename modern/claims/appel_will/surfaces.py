@@ -10,7 +10,7 @@ from modern.claims.appel_will.convexity import CUBE, RINGS, Flat
 from modern.claims.appel_will.proofs import fewer_wasted_tests, least_surface
 from modern.claims.evidence import Check, claim, exhibited, refuted, search, slip
 from modern.claims.hulls import exact_hull
-from modern.claims.invariants import corrected_print, is_closed_loop, is_sphere, numbers_in
+from modern.claims.invariants import columns, corrected_print, is_closed_loop, is_sphere, numbers_in
 from modern.claims.kovalevsky_schulz.proofs import no_combination
 from modern.claims.published import PAPERS, findings, results_of
 from modern.claims.sampled_sets import Plane, Point, counterexample, counterexample_points, plane_value
@@ -49,11 +49,8 @@ def prism(ring: tuple[Flat, ...]) -> Solid:
 
 def pitted() -> Solid:
     """Return a tetrahedron with a pit in every face."""
-    points, surfaces = [*TETRAHEDRON], []
-    for face, apex in PITS.items():
-        points.append(apex)
-        surfaces += [(a, b, len(points) - 1) for a, b in sides(face)]
-    return Solid(tuple(points), tuple(surfaces))
+    surfaces = ((a, b, k) for k, face in enumerate(PITS, len(TETRAHEDRON)) for a, b in sides(face))
+    return Solid((*TETRAHEDRON, *PITS.values()), tuple(surfaces))
 
 
 def twisted() -> Solid:
@@ -109,6 +106,14 @@ def inside_corner_at_vertex() -> Check:
     return exhibited(lost, f"point {lost} of a pyramid on a star is deleted although it is a vertex of the hull")
 
 
+@claim("appel-will.75")
+def points_kept_by_rule_2() -> Check:
+    solid, vertices = pitted(), exact_hull(pitted().points).vertices
+    on_inside, deleted = (preprocess(solid.points, solid.surfaces, rule).deleted for rule in ("any", "concave"))
+    message = f"of {len(on_inside)} points on inside corners, {len(vertices)} are vertices of the hull; all are kept"
+    return exhibited({*vertices} < {*on_inside} and not deleted, message)
+
+
 def deleted_vertices(solid: Solid, rule: Rule) -> list[int]:
     """Return the vertices of the hull that a rule deletes because they lie on inside corners (reentrant edges)."""
     vertices = exact_hull(solid.points).vertices
@@ -140,9 +145,8 @@ def solid_of_cubes(cubes: Collection[tuple[int, ...]]) -> Solid:
 
 @claim("appel-will.33")
 def surface_of_star() -> Check:
-    axes = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
     # Each of the three arms of the star has nine cubes.
-    star = solid_of_cubes({tuple(k * c for c in axis) for axis in axes for k in range(10)})
+    star = solid_of_cubes({tuple(k * c for c in axis) for axis in ((1, 0, 0), (0, 1, 0), (0, 0, 1)) for k in range(10)})
     normals = [area_vector(star.points, facet.polygon) for facet in exact_hull(star.points).facets]
     # All surfaces of the star are squares with the area 1.
     surface, around = len(star.surfaces), sum(math.hypot(*normal) for normal in normals) / 2
@@ -233,9 +237,8 @@ def product_of_directions() -> Check:
     p, corner, r = counterexample_points("obtuse.csv")
     u, v = minus(p, corner), minus(r, corner)
     products = dot(u, v), dot(u, (0, 1, 0))
-    is_refuted = any(cross(u, v)) and products[0] < 0 == products[1]
     message = f"the scalar product is {products[0]} for an obtuse angle, and {products[1]} for a right one"
-    return refuted(is_refuted, message)
+    return refuted(any(cross(u, v)) and products[0] < 0 == products[1], message)
 
 
 @claim("appel-will.80")
@@ -259,18 +262,15 @@ def fourth_loop() -> Check:
 
 @claim("appel-will.108")
 def counts_of_step_10() -> Check:
-    print_of = corrected_print("appel-will")
-    # A row of Fig. 22 has, for each loop, the labels of some lines and the counts IUC of these lines after the loop.
-    cells = [[row.split("\t")[1::2] for row in print_of[f"fig22-loops-{n}"][1:]] for n in ("1-3", "4-5")]
-    fig22 = [tuple(numbers_in(" ".join(column))) for rows in cells for column in zip(*rows, strict=True)]
-    points = counterexample_points("fig14.csv")
-    tables = [appel_will(points, method=method).table.loops for method in (printed("step10"), CORRECTED)]
-    entries, corrected = ([loop.entries for loop in loops] for loops in tables)
-    counts, right = ([loop.uses for loop in loops] for loops in tables)
-    wrong = [k for k, (a, b) in enumerate(zip(counts, fig22, strict=True)) if a != b]
-    message = f"with the printed step number, the {len(entries)} loops are the same, but the counts IUC after loop "
-    message += "; ".join(f"{k + 1} are {counts[k]} instead of {fig22[k]}" for k in wrong[:1])
-    return slip(entries != corrected or not wrong, right == fig22, "step 2", message)
+    points, rows_of = counterexample_points("fig14.csv"), corrected_print("appel-will")
+    # In Fig. 22, every second column, from the first, has the counts IUC of all lines after one loop.
+    fig22 = [tuple(counts) for n in ("1-3", "4-5") for counts in columns(rows_of[f"fig22-loops-{n}"][1:])[::2]]
+    loops, corrected = (appel_will(points, method=m).table.loops for m in (printed("step10"), CORRECTED))
+    wrong = [(k, a.uses, b) for k, (a, b) in enumerate(zip(loops, fig22, strict=True), 1) if a.uses != b]
+    message = f"with the printed step number, the {len(loops)} loops are the same, but "
+    message += "; ".join(f"the counts IUC after loop {k} are {a} instead of {b}" for k, a, b in wrong[:1])
+    is_refuted = wrong and [a.entries for a in loops] == [b.entries for b in corrected]
+    return slip(not is_refuted, [b.uses for b in corrected] == fig22, "step 2", message)
 
 
 @claim("appel-will.159")
