@@ -324,15 +324,13 @@ def limit_of_searches() -> Check:
     points = counterexample_points("pentagon.csv")
     hull = appel_will(points, method=printed("step9", "step3"))
     polygon, endless = exact_hull(points).polygon, 0
-    # A loop begins with the lines from a corner of the polygon to its two neighbours, which are SP and MP.
+    # A loop begins with the lines from a corner to its neighbours SP and MP. A search that returns to an MP never ends.
     starts = [ring[k:] + ring[:k] for ring in (polygon, polygon[::-1]) for k in range(len(polygon))]
     for corner, match, *_, start in starts:
         visited: set[int] = set()
-        # A search that returns to an earlier point MP never ends.
         while match not in (start, *visited):
             visited.add(match)
             match = next(sum(edge) - match for edge in hull.edges if match in edge and corner not in edge)
         endless += match != start
-    message = f"{endless} of {len(starts)} searches for a loop around a pentagon never end; with a limit, the method "
-    message += f"stops and reports: {hull.fault}"
+    message = f"{endless} of {len(starts)} searches around a pentagon never end; a limit stops the method: {hull.fault}"
     return exhibited(endless > 0 and hull.fault.endswith("does not return to its start"), message)

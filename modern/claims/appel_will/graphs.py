@@ -74,8 +74,7 @@ def planar_graph(cases: int = CASES) -> Check:
             # The edges opposite to a vertex, one in each face, form one ring around it.
             at = [(ring, ring.index(vertex)) for ring in rings if vertex in ring]
             checks.append(is_closed_curve([(ring[k - 1], ring[(k + 1) % len(ring)]) for ring, k in at]))
-        euler = len(hull.vertices) - len(hull.edges()) + len(hull.facets)
-        checks += [euler == 2, _connected(_graph(hull), frozenset())]
+        checks += [len(hull.vertices) - len(hull.edges()) + len(rings) == 2, _connected(_graph(hull), frozenset())]
     message = f"{len(checks)} conditions hold: the edges of a face form a ring, the graph is connected, the faces at "
     message += "each vertex form a ring, and V - E + F = 2"
     return searched(SETS[3], cases, checks, message)
