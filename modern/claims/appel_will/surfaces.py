@@ -110,7 +110,7 @@ def inside_corner_at_vertex() -> Check:
 def points_kept_by_rule_2() -> Check:
     solid, vertices = pitted(), exact_hull(pitted().points).vertices
     on_inside, deleted = (preprocess(solid.points, solid.surfaces, rule).deleted for rule in ("any", "concave"))
-    message = f"of {len(on_inside)} points on inside corners, {len(vertices)} are vertices of the hull; all are kept"
+    message = f"the rule keeps {len(on_inside)} points of a tetrahedron with pits; {len(vertices)} are vertices of the hull"
     return exhibited({*vertices} < {*on_inside} and not deleted, message)
 
 
