@@ -110,7 +110,8 @@ def inside_corner_at_vertex() -> Check:
 def points_kept_by_rule_2() -> Check:
     solid, vertices = pitted(), exact_hull(pitted().points).vertices
     on_inside, deleted = (preprocess(solid.points, solid.surfaces, rule).deleted for rule in ("any", "concave"))
-    message = f"the rule keeps {len(on_inside)} points of a tetrahedron with pits; {len(vertices)} are vertices of the hull"
+    message = f"a tetrahedron with pits has {len(on_inside)} points on inside corners, {len(vertices)} of which are "
+    message += "vertices of the hull, and the rule keeps all of them"
     return exhibited({*vertices} < {*on_inside} and not deleted, message)
 
 
