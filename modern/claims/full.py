@@ -16,6 +16,7 @@ from importlib import import_module
 from importlib.resources import files
 from inspect import getsource
 from pathlib import Path
+from types import ModuleType
 
 from emulator.files import write_text
 from modern.claims.evidence import Decision
@@ -89,9 +90,15 @@ def sources_of(decision: Decision) -> str:
 @cache
 def _used(module: str, name: str) -> Set[tuple[str, str]]:
     """Return the definitions of this package that a definition uses directly, as pairs of a module and a name."""
-    used = {node.id for node in ast.walk(definitions(module)[name]) if isinstance(node, ast.Name)}
     own = {key: (module, key) for key in definitions(module)} | imports(module)
-    return {own[key] for key in used & own.keys()}
+    modules, used = imported_modules(module), set()
+    for node in ast.walk(definitions(module)[name]):
+        if isinstance(node, ast.Name) and node.id in own:
+            used.add(own[node.id])
+        elif isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
+            owner = modules.get(node.value.id, "")
+            used |= {(owner, node.attr)} if owner and node.attr in definitions(owner) else set()
+    return used
 
 
 @cache
@@ -103,6 +110,18 @@ def imports(module: str) -> dict[str, tuple[str, str]]:
         if isinstance(node, ast.ImportFrom) and node.module and node.module.startswith("modern.claims.")
         for alias in node.names
         if alias.name in definitions(node.module)
+    }
+
+
+@cache
+def imported_modules(module: str) -> dict[str, str]:
+    """Return the full name of each module of this package that a module imports as a whole, by its name there."""
+    return {
+        alias.asname or alias.name: f"{node.module}.{alias.name}"
+        for node in ast.parse(getsource(import_module(module))).body
+        if isinstance(node, ast.ImportFrom) and node.module and f"{node.module}.".startswith("modern.claims.")
+        for alias in node.names
+        if isinstance(getattr(import_module(node.module), alias.name), ModuleType)
     }
 
 

@@ -29,6 +29,9 @@ def test_searches_are_outstanding_only_without_a_current_result() -> None:
     assert name in full.outstanding({})
     used = full._used("modern.claims.thesis.chapter5", "procedure_in_exact_arithmetic")
     assert ("modern.claims.thesis.chapter7", "vertices_of") in used
+    # A definition that is reached through its module: algebra.combination_satisfies.
+    used = full._used("modern.claims.appel_will.proofs", "points_of_hull")
+    assert ("modern.claims.algebra", "combination_satisfies") in used
 
 
 def test_a_shared_octree_hull_cannot_be_altered() -> None:
