@@ -85,8 +85,7 @@ def interior_and_closure(cases: int = 3) -> Check:
 @claim("kovalevsky-schulz.174", full=4_000)
 def additional_labels(cases: int = 3) -> Check:
     def agrees(solid: Voxels) -> bool:
-        corners = {cell for cell in _complex(solid) if dimension(cell) == 0}
-        added = _halved(map(farthest_ground_cell, corners), 3) - {*solid}
+        added = _halved((farthest_ground_cell(c) for c in _complex(solid) if dimension(c) == 0), 3) - {*solid}
         away = all(any(minus((x, y, z), step) in solid for step in STEPS) for x, y, z in added)
         return _placed(solid, VERTICES) - {*solid} == added and away and max(map(sum, added)) > max(map(sum, solid))
 

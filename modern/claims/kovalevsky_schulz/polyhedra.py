@@ -51,8 +51,7 @@ def polyhedron(points: object, coplanar: Coplanar = VISIBLE) -> CellList:
 
 @claim("kovalevsky-schulz.5", "kovalevsky-schulz.75", full=400)
 def algorithm_against_judge(cases: int = CASES) -> Check:
-    check = either_treatment(cases)
-    return check.unless(len(independent(PYRAMID[:4])) < 4, "a square, which contains no tetrahedron to start with")
+    return either_treatment(cases).unless(len(independent(PYRAMID[:4])) < 4, "a square, which contains no tetrahedron")
 
 
 @claim("kovalevsky-schulz.53", "kovalevsky-schulz.144", full=400)
