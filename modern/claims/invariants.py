@@ -21,7 +21,7 @@ from modern.formats.deck import exact_points
 from modern.papers import Lines
 from modern.thesis.cards import read_hull
 
-# The name of a relation, and whether the print satisfies it.
+# The name of a relation, and whether the corrected print satisfies it.
 Outcome = tuple[str, bool]
 # A message names up to this number of relations and counts more of them.
 _MOST_NAMES = 4
@@ -37,13 +37,13 @@ def numbers_in(line: str) -> list[int]:
 
 
 def satisfied(place: str, outcomes: Iterable[Outcome]) -> Check:
-    """Return the check that the print at ``place`` satisfies all relations; the message names the violated ones."""
+    """Return the check that the corrected print at ``place`` satisfies all relations, or names the violated ones."""
     relations = [*outcomes]
     violated = [name for name, holds in relations if not holds]
     names = [name for name, _ in relations]
     held = ", ".join(names) if len(names) <= _MOST_NAMES else f"all {len(names)} relations tested"
-    message = f"the print violates: {', '.join(violated)}" if violated else f"the print satisfies: {held}"
-    return exhibited(relations and not violated, f"{place}: {message}")
+    message = f"violates: {', '.join(violated)}" if violated else f"satisfies: {held}"
+    return exhibited(relations and not violated, f"{place}: the corrected print {message}")
 
 
 def plane_at(plane: Sequence[Fraction], point: Sequence[Fraction]) -> Fraction:

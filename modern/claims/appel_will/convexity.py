@@ -94,17 +94,15 @@ RINGS: Generator[tuple[Flat, ...]] = Generator(
 
 @claim("appel-will.10", full=20_000)
 def deletion_passes(cases: int = 8) -> Check:
-    def sides_cross(ring: tuple[Flat, ...]) -> bool:
-        return any(map(_crosses, _passes(ring)))
-
-    def ends_as_hull(ring: tuple[Flat, ...]) -> bool:
-        return {*_passes(ring)[-1]} == {ring[k] for k in exact_hull([(x, y, 0) for x, y in ring]).vertices}
+    def crosses_or_ends_as_hull(ring: tuple[Flat, ...]) -> tuple[bool, bool]:
+        passes, vertices = _passes(ring), exact_hull([(x, y, 0) for x, y in ring]).vertices
+        return any(map(_crosses, passes)), {*passes[-1]} == {ring[k] for k in vertices}
 
     message = "each polygon is reduced to its hull, or has sides that meet after a pass and are not neighbours"
-    check = search(RINGS, lambda r: sides_cross(r) or ends_as_hull(r), cases, message)
+    check = search(RINGS, lambda ring: any(crosses_or_ends_as_hull(ring)), cases, message)
     end = len(_passes(SPIRAL)[-1])
     case = f"a spiral of {len(SPIRAL)} points, which ends as a polygon of {end} points that crosses itself"
-    return check.unless(_simple(SPIRAL) and sides_cross(SPIRAL) and not ends_as_hull(SPIRAL), case)
+    return check.unless(_simple(SPIRAL) and crosses_or_ends_as_hull(SPIRAL) == (True, False), case)
 
 
 @claim("appel-will.11")
@@ -150,7 +148,7 @@ def start_of_jarvis(cases: int = CASES) -> Check:
         for x, y in product(range(-6, 7), repeat=2):
             if not any(_meet(p, q, (x, y), (9, y)) for p, q in polygon):
                 checks.append(_smallest_angle((x, y), sampled.points) not in sampled.judge.inside)
-    message = f"for {len(checks)} origins whose ray to the right misses the hull, the first point found is on the hull"
+    message = f"for {len(checks)} origins whose ray to the right misses the hull, the point found is on the border"
     check = searched(SETS[2], cases, checks, message)
     origin, *points = counterexample_points("jarvis.csv")
     first = _smallest_angle(origin[:2], points)
@@ -169,13 +167,16 @@ def _smallest_angle(origin: Sequence[int], points: Sequence[Point], way: float =
 def next_points_of_jarvis(cases: int = CASES) -> Check:
     checks = []
     for sampled in sampled_sets(2, cases):
-        # The polygon is clockwise in x and y, so that the new origin is the first end of each side.
-        for new, last in sides([sampled.points[k] for k in sampled.judge.polygon]):
+        # The origin is below all points, and the first angles are measured from the horizontal line.
+        listed: list[Point] = [(-1, -6, 0), (0, -6, 0)]
+        while len(listed) < len(sampled.points) + 3:
+            last, new = listed[-2:]
             others = [p for p in sampled.points if p != new]
-            found = others[_smallest_angle(new, others, math.atan2(new[1] - last[1], new[0] - last[0]))]
-            checks.append(sampled.points.index(found) not in sampled.judge.inside)
-    message = f"for each of {len(checks)} sides of hulls, the point with the smallest angle about the end of the side, "
-    check = searched(SETS[2], cases, checks, message + "measured from the direction of the side, is on the hull")
+            listed.append(others[_smallest_angle(new, others, math.atan2(new[1] - last[1], new[0] - last[0]))])
+        found = {*map(sampled.points.index, listed[2:])}
+        checks += [not found & {*sampled.judge.inside}, found >= {*sampled.judge.vertices}]
+    message = f"in {cases} sets, angles from the line that leads to the new origin find only points on the border of "
+    check = searched(SETS[2], cases, checks, f"{message}the hull, and all vertices of the hull")
     origin, *points = counterexample_points("jarvis_steps.csv")
     listed, remaining = [origin], [*points]
     while len(listed) < 5:

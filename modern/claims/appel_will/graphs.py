@@ -1,7 +1,7 @@
 """Checks of Appel and Will about the edges and faces of a hull: its graph, its outline, loops, and properties."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import combinations, permutations
+from itertools import combinations, permutations, product
 
 from modern.claims.appel_will.convexity import CUBE
 from modern.claims.evidence import Check, claim, searched
@@ -93,22 +93,23 @@ def coplanar_loops(cases: int = CASES) -> Check:
 
 @claim("appel-will.32", full=400)
 def outline(cases: int = CASES) -> Check:
-    # The normals of the faces have components of at most 200, so that no face is parallel to one of these directions.
-    eyes: list[Point] = [*permutations((1, 10**3, 10**6))]  # type: ignore[list-item]
-    outcomes = [is_closed_curve(_on_outline(s.points, s.judge, eye)) for s in sampled_sets(3, cases) for eye in eyes]
-    message = f"seen in {len(eyes)} directions, the edges that produce the outline of a hull form one closed curve"
-    check = searched(SETS[3], cases, outcomes, message)
+    outcomes = []
+    for s, eye, w in product(sampled_sets(3, cases), permutations((1, 6, 20), 3), (0, 1)):
+        if all(dot(facet.plane[:3], eye) + w * facet.plane[3] for facet in s.judge.facets):
+            outcomes.append(is_closed_curve(_on_outline(s.points, s.judge, eye, w)))
+    message = f"in {len(outcomes)} parallel and central projections, the edges that produce the outline of a hull form "
+    check = searched(SETS[3], cases, outcomes, f"{message}one closed curve")
     edges = _on_outline(CUBE, exact_hull(CUBE), (0, 0, 1))  # type: ignore[arg-type]
     case = f"a cube seen along an edge: {len(edges)} edges produce the outline and form no single closed curve"
     return check.unless(edges and not is_closed_curve(edges), case)
 
 
-def _on_outline(points: Sequence[Point], judge: ExactHull, eye: Point) -> list[tuple[int, int]]:
-    """Return the edges whose images lie on the border of the projection along ``eye`` and are not single points."""
+def _on_outline(points: Sequence[Point], judge: ExactHull, eye: Point, w: int = 0) -> list[tuple[int, int]]:
+    """Return the edges whose images are on the border of a projection, from a point if ``w`` is 1, and no points."""
     edges = []
     for a, b in judge.edges():
         # This normal is perpendicular to the image of the edge in the plane of projection.
-        normal = cross(minus(points[b], points[a]), eye)
+        normal = cross(minus(points[b], points[a]), minus(eye, points[a]) if w else eye)
         values = [dot(normal, minus(point, points[a])) for point in points]
         if any(normal) and not min(values) < 0 < max(values):
             edges.append((a, b))

@@ -98,29 +98,27 @@ def equal_images() -> Proof:
 @proves("appel-will.38")
 def fewer_pairs() -> Proof:
     (m,) = algebra.variables("m")
-    n = m + 6
+    n = m + 5
     difference = n * (n - 1) * (n - 2) - 3 * n * (n - 1)
-    # The difference is m^3 + 12 m^2 + 41 m + 30.
-    squares = (term("", 3 * m), term("", m), term("", m), term("", m), term("", 5), term("", 2), term(""))
-    terms = (term("m m m"), term("m", 6), term("m", 2), term("m"), *squares)
+    terms = (term("m m m"), term("m m", 3), term("m", 4), term("m", 2))  # m^3 + 9 m^2 + 20 m
     return Proof.of(
         "six or more points have fewer pairs than triples",
         "The number of triples of n points is larger than that of pairs by n (n - 1) (n - 5) / 6. This is positive for "
-        "n = 6 + m if m is not negative.",
-        Step("the difference is positive", {"m": algebra.not_negative(m)}, positive(difference), terms),
+        "n = 5 + m if m is positive.",
+        Step("the difference is positive", {"m": positive(m)}, positive(difference), terms),
     )
 
 
 def fewer_wasted_tests() -> Proof:
-    u, m = algebra.variables("u m")
-    vertices, n = u + 2, m + 4
-    difference = (3 * vertices - 6) * (n - 2) - 3 * (2 * vertices - 4)
+    e, f, m = algebra.variables("E F m")
+    hypotheses = {"edges": algebra.not_negative(2 * e - 3 * f), "e": positive(e), "m": positive(m)}
+    step = Step("E (N - 2) > 3 F", hypotheses, positive(e * (m + 2) - 3 * f), (term("e m"), term("edges")))
     return Proof.of(
-        "if N > 4 and no plane of the hull has four points, a smaller part of the pairs than of the triples is wasted",
-        "By Euler's formula, a hull with V vertices and only triangles has E = 3 V - 6 edges and F = 2 V - 4 faces. "
-        "N points have (N - 2) / 3 times as many triples as pairs. E of the pairs and F of the triples are not wasted. "
-        "So the wasted part of the pairs is smaller if E (N - 2) is greater than 3 F, as it is for N > 4.",
-        Step("E (N - 2) > 3 F", {"u": positive(u), "m": positive(m)}, positive(difference), (term("u m"),) * 3),
+        "if N > 4 and one triple in each plane is useful, a smaller part of the pairs than of the triples is wasted",
+        "A hull with E edges and F faces has 2 E >= 3 F, because each edge is on two faces and each face has at least "
+        "three edges. N points have (N - 2) / 3 times as many triples as pairs. E pairs and F triples are not wasted. "
+        "So the wasted part of the pairs is smaller if E (N - 2) is greater than 3 F, as it is for N = 4 + m > 4.",
+        step,
     )
 
 
@@ -140,8 +138,9 @@ def points_of_hull() -> Proof:
 def projections() -> Proof:
     return Proof.of(
         "the image of the hull of points is the hull of their images",
-        "The coordinates of an image are linear functions of the point. The images of all combinations of the vertices "
-        "are therefore all combinations of the images of the vertices, which form a convex polygon.",
+        "The coordinates of an image are linear functions of the point. A central projection also divides them by the "
+        "depth, which is positive, and so multiplies the weights by the depths and a common factor. The images of all "
+        "combinations of the vertices are thus all combinations of their images, which form a convex polygon.",
         *algebra.combination_satisfies()[:1],
     )
 
