@@ -215,7 +215,7 @@ class Proof:
 
 
 def proves(*statements: str, conclusion: str = "") -> Callable[[Callable[[], Proof]], Callable[[], Proof]]:
-    """Name the statements that the proof which a function returns decides.
+    """Decorate a function that returns a proof: name the statements that this proof decides.
 
     statements: ids of rows of the register.
     conclusion: what the argument says about these statements; by default, they are the theorem itself.
@@ -234,7 +234,7 @@ def _check_of(proof: Callable[[], Proof], conclusion: str) -> Check:
 
 
 def largest_value() -> Step:
-    """Return the step that proves: a linear function that is largest at a weighted mean of points is so at each point.
+    """Return the step that proves: if a linear function is largest at a mean of points, it is largest at each.
 
     The weights are positive, and their sum need not be 1.  A mean of more than two points is formed by combining two at
     a time.

@@ -112,10 +112,10 @@ _CONDITION = re.compile(r"A_(\d)x_(\w)\+B_\1y_\2\+C_\1z_\2\+D_\1[<>]0")
 
 
 def _arithmetic(row: Row, lines: tuple[Line, ...]) -> bool:
-    """Return True if each condition is printed as A x + B y + C z + D, and if the form A x + B y + C is wrong.
+    """Return True if each condition in the given lines has the form A x + B y + C z + D, and A x + B y + C is wrong.
 
-    That form is wrong if its value is positive and that of the printed form negative for the plane and the point that
-    the ground names.
+    The short form is wrong if, for the plane and the point that the ground names, its value is positive and that of the
+    long form is negative.
     """
     theorem = next(t for t in chapter4.load_theorems() if t.id == row.ground["theorem"])
     plane, point = theorem.plane(row.ground["equation"]), theorem.point(row.ground["point"])

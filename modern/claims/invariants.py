@@ -279,7 +279,7 @@ def example_of_chapter_6(example: int) -> Check:
     outcomes = [
         ("closed surface", {*at.values()} == {2} and faces == corners if hull.plane else spatial),
         ("the equations are 0 at their vertices", not any(values)),
-        ("all points have a part", len(hull.inside) + len(hull.boundary) + corners == len(points)),
+        ("every input point is classified", len(hull.inside) + len(hull.boundary) + corners == len(points)),
     ]
     return satisfied(f"example {example}", outcomes)
 

@@ -62,7 +62,7 @@ _REASONS: Mapping[str, Verdict] = {
 }
 _OF_VERDICT = {*_REASONS, "code", "note", "result", "file", "run"}
 _FIELDS = {"words", "says", "kind", "part", "same"} | _OF_VERDICT
-# The kind of a statement is the first whose form its page, paraphrase or quotation has: "PAGE: PARAPHRASE [QUOTATION]".
+# The kind of a statement is the first of these whose pattern occurs in the text "PAGE: PARAPHRASE [QUOTATION]".
 _KINDS: Mapping[str, str] = {
     "figure": r"(^|: )Figs?\. |flow charts? (of|use)",
     "table": r"(^|: )(In )?Table \d|[Tt]he table of|of Table \d",

@@ -78,7 +78,7 @@ def polyhedra(boxes: tuple[Box, ...], thing: str = "") -> list[Polyhedron]:
 
 
 def _inside(point: list[Fraction], box: Box) -> tuple[Fraction, Fraction]:
-    """Return where the line from a point to the eye enters and leaves a box, in this order if it meets the box."""
+    """Return where the line from a point to the eye enters and leaves a box; unless they meet, the first is larger."""
     ranges = [sorted(((a - p) / (e - p), (b - p) / (e - p))) for p, a, b, e in zip(point, *box, EYE, strict=True)]
     return max(first for first, _ in ranges), min(last for _, last in ranges)
 
@@ -124,8 +124,8 @@ def _agrees(boxes: tuple[Box, ...]) -> bool:
 
 @claim("nakamae-nishita.7", full=600)
 def pieces_against_rays(cases: int = 2, scenes: Generator[tuple[Box, ...]] = SCENES) -> Check:
-    message = "edges, and figures on front faces, are divided into pieces; of three points of each, boxes hide none "
-    return search(scenes, _agrees, cases, f"{message}if the method calls the piece visible, and all three otherwise")
+    message = "the method divides edges, and figures on front faces, into visible and hidden pieces; boxes hide no "
+    return search(scenes, _agrees, cases, f"{message}point tested on visible pieces, and all tested on hidden ones")
 
 
 # Eyes in no plane of a face of a sampled hull. If the last number is 0, the eye is at infinity.
@@ -206,8 +206,8 @@ def divided_object(cases: int = 4) -> Check:
         with_ghosts, without = (_visible_lines(draw(polyhedra(boxes, thing), OBSERVER)) for thing in ("", "box"))
         checks.append(without == {line for line in with_ghosts if not _is_in_face(line, boxes)})
         removed += len(with_ghosts) > len(without)
-    message = f"of the visible lines of {cases} objects of two boxes, exactly those are removed as ghost lines that "
-    message += f"lie in a plane part of the surface; number of objects with such lines: {removed}"
+    message = f"{cases} objects consist of two boxes each; of their visible lines, exactly those within a plane part "
+    message += f"of the surface are removed as ghost lines; number of objects with such lines: {removed}"
     return searched(PARTS, cases, [*checks, removed], message)
 
 

@@ -56,10 +56,10 @@ def three_corners() -> Proof:
     return Proof.of(
         "formula (1) for three successive corners that form a convex angle is positive if and only if they belong to a "
         "front face",
-        f"{front.argument} If y points up, formula (1) for the three corners is this turn. It is 0 only if the corners "
-        "are collinear, which a convex angle excludes, or if the face is seen in its own plane.",
+        f"{front.argument} If y points up, formula (1) is twice the signed area of the three images. It is 0 only if "
+        "the corners are collinear, which a convex angle excludes, or if the face is seen in its own plane.",
         *front.steps,
-        Step("formula (1) is the turn", {}, zero(formula_1 - bracket(u, v, w))),
+        Step("formula (1) is twice the signed area", {}, zero(formula_1 - bracket(u, v, w))),
     )
 
 
@@ -83,8 +83,8 @@ def overlap_by_neighbours() -> Proof:
     (t,) = algebra.variables("t")
     x = tuple((1 - t) * a + t * b for a, b in zip(p, q, strict=True))
     return Proof.of(
-        "a segment on the line of a side overlaps the side if and only if the columns of both adjacent sides have a 1 "
-        "in one of the two rows of the segment's ends",
+        "a segment on the line of a side overlaps the side if and only if the column of each adjacent side has a 1 in "
+        "at least one of the two rows of the segment's ends",
         "Let o, p, q and r be successive corners of a contour, none of them straight, and let x = p + t (q - p) be an "
         "end of the segment. The values of formula (1) at x for the sides o p and q r are t times the value at q, and "
         "1 - t times that at p, which are positive. So the column of o p has a 1 if t > 0, and that of q r if t < 1. A "

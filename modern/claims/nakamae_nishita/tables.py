@@ -1,4 +1,4 @@
-"""Checks of Nakamae and Nishita on two contours: correlations, formulas (1) to (5), and the tables PL and LP.
+"""Checks of Nakamae and Nishita on how two contours lie, on formulas (1) to (5), and on the tables PL and LP.
 
 An entry of a table tells on which side of a line of one contour a vertex of the other contour lies.
 """
@@ -146,14 +146,14 @@ def formula_3(cases: int = CASES) -> Check:
     touching = [bool(expected) for _, expected, in_line in meetings if in_line]
     # The paper states no value for collinear segments that touch or overlap.
     outcomes = [d == (0 if in_line else expected) for d, expected, in_line in meetings]
-    message = f"d has the stated value for {numbers.total()} pairs of segments that are not collinear ("
+    message = f"d has the value of section 3.2 for {numbers.total()} pairs of segments that are not collinear ("
     message += ", ".join(f"{d} for {n}" for d, n in numbers.items())
     message += f"); d is 0 for {len(touching)} collinear pairs, {sum(touching)} of which touch or overlap"
     return searched(POLYGONS, 2 * cases, [*outcomes, {*numbers} == {-4, -2, -1, 0}, any(touching)], message)
 
 
 @claim("nakamae-nishita.37", conclusion="formula (5) is positive if the vertex is nearer, negative if the face is")
-@claim("nakamae-nishita.60", conclusion="formula (5) has the same sign, that of the nearer one, for all vertices of V'")
+@claim("nakamae-nishita.60", conclusion="formula (5) has the same sign at all vertices of V', so any of them decides")
 def formula_5(conclusion: str) -> Check:
     x, p, q, r = (algebra.point(name, 3) for name in "xpqr")
     unit = algebra.polynomial(1)
@@ -178,7 +178,7 @@ def formula_5(conclusion: str) -> Check:
 
 @cache
 def numbers_of_meetings(v: tuple[Place, ...], w: tuple[Place, ...]) -> list[tuple[int, int, bool]]:
-    """Return for each pair of sides of two contours: d by formula (3), d as stated, and whether they are collinear."""
+    """Return for each pair of sides: d by formula (3), d as the paper states it, and whether they are collinear."""
     d_of, meetings = tables_of(v, w).crossing_number, []
     for (i, (a, b)), (j, (c, d)) in product(enumerate(sides(v)), enumerate(sides(w))):
         # Section 3.2: -4 for a crossing, -2 for a vertex on a segment, -1 for a common vertex, else 0.
@@ -223,7 +223,7 @@ def table_properties(number: str, cases: int = CASES) -> Check:
             touching += touches
     unit = {"3": "segments without -1", "4": "vertices", "LP": "cases"}.get(number, "pairs of contours")
     message = f"the premise is satisfied for {premises} of {len(checks)} {unit}; in all of these, the conclusion holds"
-    message += f"; {touching} segments without -1 touch the other contour (d is -2 or -1)" if touching else ""
+    message += f"; {touching} segments without -1 touch the other contour (d in (3) is -2 or -1)" if touching else ""
     return searched(POLYGONS, 2 * cases, checks, message)
 
 
@@ -255,8 +255,8 @@ def intersection_counts(cases: int = CASES) -> Check:
             by_3 = [side(p, q, a) != side(p, q, b) and side(a, b, p) != side(a, b, q) for p, q in sides(v)]
             counts[crossed + len(touched)] += 1
             most = max(most, sum(by_3))
-    message = f"{counts.total()} segments cross or touch a contour in 0, 1 or 2 points; {along} run along a side and "
-    message += f"touch it in two; formula (3) counts up to {most} touches, as it finds a corner on two sides"
+    message = f"{counts.total()} segments cross or touch a contour in 0, 1 or 2 points, if only the ends of a common "
+    message += f"part ({along} segments) count; formula (3) counts up to {most}, as it counts a corner for both sides"
     return searched(POLYGONS, 2 * cases, [{*counts} == {0, 1, 2}, along, most > 2], message)
 
 

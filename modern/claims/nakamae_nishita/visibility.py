@@ -119,7 +119,7 @@ def nearer_polyhedron(cases: int = 3) -> Check:
         relations = [relation for relation in drawn(boxes).relations if relation.by == BY_CROSSING]
         return all(r.nearer == order for r in relations for order in orders(boxes[r.v], boxes[r.w]))
 
-    check = search(SCENES, have_one_order, cases, "of two boxes, the same one is nearer on all their lines of sight")
+    check = search(SCENES, have_one_order, cases, "on all lines of sight through two boxes, the same box is nearer")
     return check.unless(_undecided_if_touching(), "two boxes that touch where their images meet: formula (4) is 0")
 
 

@@ -77,7 +77,7 @@ def gift_wrapping(kind: str, cases: int = 1) -> Check:
     for sampled in sampled_sets(2 if kind == "lines" else 3, cases):
         expected = {_on(sampled.points, facet.plane) for facet in sampled.judge.facets}
         checks.append((_turned_lines(sampled) if kind == "lines" else _turned_planes(sampled.points)) == expected)
-    turned = "lines about points, without sorting them," if kind == "lines" else "planes about a line, then about edges"
+    turned = "lines about unsorted points" if kind == "lines" else "planes first about a line and then about edges"
     message = f"turning {turned} finds exactly the supporting {kind} of {sum(checks)} of {len(checks)} sets"
     return searched(SETS[2 if kind == "lines" else 3], cases, checks, message)
 

@@ -65,7 +65,7 @@ def collinear_points(cases: int = 8) -> Check:
         ends = [{points[k] for k in vertices} for vertices in (hull.vertices, exact_hull(points).vertices)]
         return on and two_planes and ends == [{min(points), max(points)}] * 2
 
-    message = "for each set the procedure finds the two ends and two planes that intersect in the line"
+    message = "for each set of collinear points the procedure finds its two ends, and two planes that meet in its line"
     return search(LINES, ends_and_equations, cases, message)
 
 
@@ -114,7 +114,7 @@ def equation_of_line() -> Check:
         a, b, c = line_as_printed(u1, v1, u1 + u, v1 + v)
         return a * (u1 + along * u + right * v) + b * (v1 + along * v - right * u) + c - right * (u * u + v * v)
 
-    message = "in the two coordinates that it contains, the equation is 0 exactly on the line through the two points"
+    message = "in the plane of its two coordinates, the equation is 0 exactly on the line through the two points"
     argument = "Its value at a point is the distance to the right of the line times the distance of the two points."
     return identity(difference, (2, 2, 2, 2, 1, 1), message, argument)
 

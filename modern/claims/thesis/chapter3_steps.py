@@ -51,7 +51,7 @@ def coplanarity_test(cases: int = CASES) -> Check:
     for sampled in flat_and_spatial_sets(cases):
         first = plane_as_printed(*(sampled.points[k] for k in sampled.hull.history[0].added[:3]))
         checks.append(any(plane_value(first, point) for point in sampled.points) == (not sampled.flat))
-    return all_hold(BOTH, 2 * cases, checks, "sets: the first plane contains all points exactly if the set is flat")
+    return all_hold(BOTH, 2 * cases, checks, "sets: exactly the flat ones lie in the plane of their first three points")
 
 
 @claim("thesis.53", full=300)
@@ -65,7 +65,7 @@ def common_first_steps(cases: int = CASES) -> Check:
         hulls = [convex_hull(points, history=True) for points in (flat, [*flat, (x, y, z + 1)])]
         firsts = [[hull.points[k] for k in hull.history[0].added[:3]] for hull in hulls]
         checks.append([hull.dimension for hull in hulls] == [2, 3] and firsts[0] == firsts[1])
-    return all_hold(SETS[2], cases, checks, "flat sets start with the same three points if one off the plane is added")
+    return all_hold(SETS[2], cases, checks, "flat sets keep their first three points if a point off the plane is added")
 
 
 @claim("thesis.59", full=300)
@@ -95,7 +95,7 @@ def classification_by_signs(cases: int = CASES) -> Check:
         for k, point in enumerate(sampled.points):
             largest = max(plane_value(facet.plane, point) for facet in sampled.judge.facets)
             checks.append(largest <= 0 and (largest == 0) == (k not in sampled.judge.inside))
-    message = f"at {len(checks)} points no equation is positive, and one is 0 exactly if the point is not inside; "
+    message = f"at {len(checks)} points no equation is positive, and some are 0 exactly if the point is not inside; "
     message += "the midpoint of a side is a boundary point and no vertex"
     return searched(BOTH, 2 * cases, [*checks, some_boundary], message)
 
@@ -149,7 +149,7 @@ def fourth_point_by_largest() -> Check:
     values = [plane_value(plane_as_printed(*points[:3]), point) for point in points]
     text, listing = convex_hull(points, text=True, on_refusal="return"), convex_hull(points)
     wrong = max(values) == 0 and not text.determined and listing.determined
-    message = f"the values at the points are {', '.join(map(str, values))}; the plane itself contains the largest, but "
+    message = f"the values at the points are {', '.join(map(str, values))}; points in the plane have the largest, but "
     return refuted(wrong, f"{message}the listing finds the hull")
 
 
@@ -164,8 +164,8 @@ def new_planes(cases: int = CASES) -> Check:
         remaining = [frozenset(d) for k, d in enumerate(planes) if k not in visible]
         made = [frozenset(edge) | {after.vertices[-1]} for edge, count in edges.items() if count == 1]
         checks.append(Counter(map(frozenset, after.defining)) == Counter([*remaining, *made]))
-    message = "hulls have the planes that the rule makes of the new point and the sides of the replaced planes, if two "
-    return all_hold(SETS[3], cases, checks, f"{message}new planes with the same points in one order are eliminated")
+    message = "hulls have the planes of the rule: the new point and the sides of each replaced plane give three, and "
+    return all_hold(SETS[3], cases, checks, f"{message}two new ones with the same points in one order are eliminated")
 
 
 @claim("thesis.97", full=300)
@@ -237,7 +237,7 @@ def order_of_replacement(cases: int = CASES) -> Check:
         text, listing = ([f.lowest for f in hull.faces] for hull in hulls)
         outcomes.append(sorted(text) == sorted(listing) == sorted(f.plane for f in exact_hull(points).facets))
         reordered += text != listing
-    message = f"text and listing give the planes of {sum(outcomes)} of {cases} sets; the orders differ for {reordered}"
+    message = f"text and listing give {sum(outcomes)} of {cases} sets the same planes, in another order for {reordered}"
     return searched(WITH_FOURTH_POINT, cases, [*outcomes, reordered], message)
 
 

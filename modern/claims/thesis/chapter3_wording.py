@@ -53,9 +53,9 @@ def text_against_listing(cases: int = CASES) -> Check:
     # Other sets meet a fault of a program, which must be corrected (thesis.1).
     sets = [s for s in flat_and_spatial_sets(cases) if not convex_hull(s.points, "truncating").corrected]
     agree = [_punches_same_hull(sampled) for sampled in sets]
-    message = f"{sum(agree)} of {len(agree)} runs that meet no fault of the programs punch the hull of a procedure "
-    message += f"that follows {len(rules)} rules of the text; {len(same_result)} other steps of the text lead to the "
-    message += "same hull"
+    message = f"{sum(agree)} of {len(agree)} runs that meet no fault of the programs punch the hull that the port "
+    message += f"finds by {len(rules)} rules of the text; {len(same_result)} steps that the text describes differently "
+    message += "lead to the same hull"
     check = searched(BOTH, 2 * cases, [*agree, *(step.holds for step in (*rules, *same_result))], message)
     case = f"two other steps, which lose the hull or a line; and by {orders_of_program_3()}"
     return check.unless(not any(step.holds for step in losing), case)
@@ -79,7 +79,7 @@ def line_duplicates(cases: int = CASES) -> Check:
     outcomes = [len(k) == len({*k}) == len(exact_hull(points).facets) for k, points in zip(left, sets, strict=True)]
     removed = sum(numbers)
     message = f"in {cases} sets, the rule leaves one equation of each line if it never removes the last equation of a "
-    check = searched(LATTICE_SETS[2], cases, [*outcomes, removed], f"{message}line; number of removed ones: {removed}")
+    check = searched(LATTICE_SETS[2], cases, [*outcomes, removed], f"{message}line; equations removed: {removed}")
     lost = line_duplicates_as_printed()
     return check.unless(not lost.holds, f"the six points of line_lost.csv: {lost.message}")
 
@@ -120,7 +120,8 @@ def plane_duplicates_as_printed(cases: int = CASES) -> Check:
                 kept_planes.append(_unsigned(plane))
         checks.append(sorted(kept_planes) == sorted(_unsigned(facet.plane) for facet in exact_hull(points).facets))
         differing += kept_planes != [_unsigned(face.lowest) for face in hull.faces]
-    message = f"{sum(checks)} of {len(checks)} sets keep one equation per plane, {differing} not that of the listing"
+    message = f"for {sum(checks)} of {len(checks)} sets, the rule keeps one equation of each plane, for {differing} of "
+    message += "them in another order than the listing"
     return searched(LATTICE_SETS[3], cases, [*checks, differing], message)
 
 
@@ -162,8 +163,8 @@ def first_equation_tested(cases: int = CASES) -> Check:
             numbers += [netc] if before + step == "EC" else []
             stopped = netc if step == "G" else stopped
     later = sum(number > 1 for number in numbers)
-    message = f"{len(numbers)} hulls: the test begins with equation 1 for H_1, later with the equation at which the "
-    message += f"test before stopped, {later} times not equation 1; after each, the next is tested or a point is added"
+    message = "the tests of a hull begin with equation 1 for H_1, else with the one at which those of the hull before "
+    message += f"stopped ({later} of {len(numbers)} times not equation 1); then the next is tested, or a point is added"
     return searched(BOTH, 2 * cases, [*outcomes, later], message)
 
 
@@ -192,8 +193,8 @@ def first_hull_against_extremes(cases: int = 4) -> Check:
     passed = [volume >= 0 for volume in within] + [any(within), *fewer]
     larger = all(own[0] > of_six[0] == 0 for own, of_six in flat) and first[0] > six_extremes[0] > 0
     own, of_six = _volumes_and_planes(((0, 1, 1), (3, 2, 1), (1, 3, 0), (2, 0, 3)))
-    says = f"{len(within)} of {len(fewer)} hulls H_1 use only extreme points, and these are not larger than the hull "
-    says += "of the extreme points; no H_1 has more planes than this hull, unless the extreme points are coplanar"
+    says = f"{len(within)} of {len(fewer)} hulls H_1 use only extreme points, and are not larger than the hull of "
+    says += "the extreme points; no H_1 has more planes than the latter, unless the extreme points are coplanar"
     case = f"a set for which H_1 has the volume {first[0]}/6, and the hull of the extreme points {six_extremes[0]}/6"
     case += f"; and by a tetrahedron, for which both have the volume {own[0]}/6 and {own[1]} planes"
     return searched(SETS[3], cases, passed, says).unless(larger and own == of_six and own[0], case)

@@ -108,7 +108,7 @@ def _points(theorem: Theorem) -> Check:
 
 def _equations(theorem: Theorem) -> Check:
     faults = theorem_faults(theorem, load_text())
-    message = f"the example has {theorem.points_stated} points; each equation is 0 at the points of its row"
+    message = f"the example has {theorem.points_stated} points; each equation is 0 at the points named for it"
     message += ", and the extreme points are as stated" if theorem.extremes else ""
     return exhibited(not faults, faults[0] if faults else message)
 
@@ -234,7 +234,8 @@ def procedure_of_4_8() -> Check:
         largest = [(plane.at(_point(theorem, name)), max(map(plane.at, theorem.points))) for plane in planes]
         farthest.append(any(0 < value == most for value, most in largest))
     right = same[0] and same[1] and same[4] and used[8:] == ["Q9"] and hull.history[-1].outside == 6 and all(farthest)
-    message = f"the procedure makes H_1, H_2 and H_5; {sum(farthest)} of the 4 added points are farthest from a plane"
+    message = f"the procedure makes H_1, H_2 and H_5; {sum(farthest)} of the 4 points that the text adds are "
+    message += "farthest from a plane of the hull before"
     others = not same[2] and not same[3] and not as_worded.determined
     case = "H_3 and H_4 of the procedure, which have other points, and by the rule of page 29, which makes no H_1"
     return exhibited(right, message).unless(others, case)

@@ -280,8 +280,8 @@ def procedure_in_exact_arithmetic(dimensions: tuple[int, ...], cases: int = CASE
 def inside_heading(cases: int = CASES) -> Check:
     tests = [t for points in SETS[3].cases(cases) for t in construction(points, programs.program).inside]
     after = [is_2 for is_punched, is_2 in tests if is_punched]
-    message = f"program 3 tests INSID for each inside point: after the heading it is 2 at {sum(after)} of {len(after)} "
-    message += f"tests, and before the heading at {sum(map(any, tests)) - len(after)} of {len(tests) - len(after)}"
+    message = f"program 3 tests INSID for each inside point: it is 2 at {sum(after)} of {len(after)} tests after the "
+    message += f"heading, and at {sum(map(any, tests)) - len(after)} of {len(tests) - len(after)} tests before it"
     return searched(SETS[3], cases, [after, *(a == b for a, b in tests)], message)
 
 

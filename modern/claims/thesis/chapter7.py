@@ -156,7 +156,7 @@ def fifty_one_points() -> Check:
     right = vertices == {*TETRAHEDRON} and inside == {*many} - vertices and len(hull.equations) == len(vertices)
     right = right and coordinates == {len(many)} and arrays[2]["KK"] == PLACES < most
     message = f"the arrays hold {len(many)} points, and the programs find the hull of a set of as many points; another "
-    message += f"set, of {len(points)} points, needs {most} entries of the plane table at once, but it has {PLACES}"
+    message += f"set, of {len(points)} points, needs {most} entries at once in the plane table, which has {PLACES}"
     return exhibited(right and len(points) < len(many), message)
 
 

@@ -73,8 +73,8 @@ def hull_of_approximations(cases: int = 3) -> Check:
             is_near &= all(10**7 * at(e, p) <= 60 * sum(map(abs, e[:3])) for e in planes for p in second)
         return is_near and disagreement(from_hull("port", convex_hull(points)), judge, points).agrees
 
-    message = "the hull is that of points whose coordinates differ from the given ones after seven digits, and neither "
-    message += "hull extends beyond a plane of the other by more than such differences"
+    message = "the hull is that of points whose coordinates differ from the given ones after seven digits; neither it "
+    message += "nor the hull of the given points extends beyond a plane of the other by more than such differences"
     check = search(SEVENTHS, approximates, cases, message)
     case = f"calculations in eight digits, with which the programs find the hulls of {sum(found)} of {cases} sets"
     return check.unless(not all(found), case)
@@ -177,7 +177,7 @@ def programs_rejecting_data(cases: int = 6) -> Check:
         names += [run.final.name] if is_last_rejected else []
     rejected = [names.count(name) for name in ("program2", "program3")]
     message = f"programs 2 and 3 reject {rejected[0]} and {rejected[1]} sets, all at an equation that is not zero at "
-    message += f"its points, and accept the {accepted} equations that are zero at them"
+    message += f"its defining points, and accept the {accepted} equations that are zero at theirs"
     check = searched(TRUNCATED, cases, [*outcomes, *rejected, accepted], message)
     deck = deck_with(_REJECTED)
     switched = run_hull(deck, programs.program, Options(switches=frozenset({1})))

@@ -128,7 +128,7 @@ def theorem_4_1() -> Check:
         "If the extreme points of one coordinate coincide, all points are coplanar. For each other way in which "
         "extreme points can coincide, a set that is not coplanar has exactly these extreme points in one plane"
     )
-    return proved(argument, coplanar_extremes(), "the extremes can be coplanar in all 87 ways in which they coincide")
+    return proved(argument, coplanar_extremes(), "the six points can be coplanar, whichever of them coincide (87 ways)")
 
 
 @claim("thesis.112")

@@ -95,7 +95,7 @@ def equations_of_line() -> Proof:
     ]
     components = [printed[0] + product[0], printed[1] - product[1], printed[2] + product[2]]
     return Proof(
-        "two of (3.1) to (3.3) hold exactly on the line if both contain a coordinate in which the points differ",
+        "two of (3.1) to (3.3) both hold exactly on the line if each contains a coordinate in which the points differ",
         "A point x is on the line of p and q exactly if the vector product of q - p and x - p is 0. Each printed "
         "equation says that one component of this product is 0. The two chosen equations contain the coordinate in "
         "which p and q differ, and if two such components are 0, the third is 0 too.",

@@ -114,7 +114,7 @@ def theorem_4_4() -> Proof:
             hypotheses = {**of_plane, "first": zero(way[i]), "second": zero(way[j])}
             steps.append(Step(says, hypotheses, zero(way[axis]), (*terms, *of_projection), ("tilted",)))
     return Proof.of(
-        "if the plane of the points is not parallel to an axis, leaving out that coordinate keeps the vertices",
+        "if the points' plane is not parallel to an axis, leaving out the coordinate of this axis keeps the vertices",
         "A vertex is a point that is not between two others of the hull. Leaving out a coordinate maps points between "
         "others to points between others. Conversely, a point whose projection is between two others is between them, "
         "and different points have different projections.",
@@ -162,7 +162,7 @@ def theorem_4_6() -> Proof:
 
 
 def _boundary_steps() -> Iterator[Step]:
-    """Yield the steps of this proof: a point where a linear function is largest is inside no triangle of the set."""
+    """Yield the steps that prove: a point where a linear function is largest on a set is inside no triangle of it."""
     yield largest_value()
     p, q, r = point("p", 2), point("q", 2), point("r", 2)
     slope = variables("L_1 L_2")
@@ -290,11 +290,11 @@ def theorem_4_5() -> Proof:
 @claim("thesis.74", "thesis.131", "thesis.257", "thesis.258", proof=theorem_4_5)
 @claim("thesis.132", proof=theorem_4_5, conclusion="convex combinations of the vertices satisfy all inequalities")
 @claim("thesis.133", proof=theorem_4_5, conclusion="a triangle consists of the convex combinations of its corners")
-@claim("thesis.238", proof=theorem_4_5, conclusion="the vertices of H_j satisfy all lines of H_j")
+@claim("thesis.238", proof=theorem_4_5, conclusion="no line of H_j is positive at a vertex of H_j")
 @claim(
     *("thesis.240", "thesis.241"),
     proof=theorem_4_5,
-    conclusion="so H_k+1 is H_k and the triangle of the replaced line and the new point",
+    conclusion="so H_k+1 consists of H_k and the triangle of the replaced line and the new point",
 )
 @claim("thesis.71", "thesis.135", proof=theorem_4_6)
 @claim("thesis.136", proof=theorem_4_6, conclusion="d^2 (A^2 + B^2) is the square of A x + B y + C for the distance d")
