@@ -35,7 +35,7 @@ def smaller_polyhedron(vertices: str) -> Check:
     return refuted(wrong and exact_hull(four).dimension == 3, message)
 
 
-@claim("kovalevsky-schulz.126", "kovalevsky-schulz.75", full=1_000)
+@claim("kovalevsky-schulz.126", "kovalevsky-schulz.125", "kovalevsky-schulz.75", full=1_000)
 def vertices_are_local_corners(cases: int = 2) -> Check:
     def agrees(solid: Voxels, of: Of) -> bool:
         cells, points = merged(polyhedron(local_corners(listed(solid), of))), points_of(solid, of)

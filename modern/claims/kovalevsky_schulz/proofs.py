@@ -90,7 +90,7 @@ def no_combination() -> Proof:
 
 
 @proves("kovalevsky-schulz.49")
-@proves("kovalevsky-schulz.173", conclusion="normals of visible faces make acute angles with P - Q, others obtuse")
+@proves("kovalevsky-schulz.173", conclusion="the angle is acute for a visible face and obtuse for an invisible face")
 def choice_of_q() -> Proof:
     n, p, q, r = (point(name, 3) for name in "npqr")
     in_face, difference = zero(dot(n, minus(q, r))), zero(dot(n, minus(p, q)) - dot(n, minus(p, r)))
@@ -146,7 +146,7 @@ def symmetry() -> Proof:
 
 @proves("kovalevsky-schulz.71")
 @proves("kovalevsky-schulz.72", conclusion="the outward normal of the plane is a N_v + b N_n with positive a and b")
-@proves("kovalevsky-schulz.168", conclusion="products of such vectors with the normal of the new plane are at most 0")
+@proves("kovalevsky-schulz.168", conclusion="the new normal's products with vectors into the polyhedron are at most 0")
 def lemma_be() -> Proof:
     visible, hidden = point("v", 3), point("n", 3)
     edge, new, way = point("e", 3), point("p", 3), point("w", 3)

@@ -37,20 +37,16 @@ def local(solid: Voxels, of: Of = CENTRES, neighbours: int = 26) -> set[Point]:
     return {(x, y, z) for x, y, z in local_corners(listed(solid), of, neighbours).tolist()}
 
 
-@claim("kovalevsky-schulz.125", full=2_000)
-def vertices_among_local_corners(cases: int = 3) -> Check:
+@claim("kovalevsky-schulz.11", full=2_000)
+def hull_of_few_voxels(cases: int = 3) -> Check:
     def among(solid: Voxels) -> bool:
         sets = ((points_of(solid, of), of) for of in KINDS)
         return all({points[k] for k in exact_hull(points).vertices} <= local(solid, of) for points, of in sets)
 
-    return search(SOLIDS, among, cases, "the vertices of the hull of each solid are local corners")
-
-
-@claim("kovalevsky-schulz.11", full=2_000)
-def hull_of_few_voxels(cases: int = 3) -> Check:
+    check = search(SOLIDS, among, cases, "the vertices of the hull of each solid are local corners")
     zigzag: Voxels = tuple((x, x % 2, x // 2 % 2) for x in range(20))
     refutes = exact_hull(zigzag).dimension == 3 and local(zigzag) == {*zigzag}
-    return vertices_among_local_corners(cases).unless(refutes, "20 voxels of a zigzag in space, all local corners")
+    return check.unless(refutes, "20 voxels of a zigzag in space, all local corners")
 
 
 @claim("kovalevsky-schulz.23")

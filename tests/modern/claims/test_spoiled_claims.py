@@ -73,7 +73,7 @@ BY_HAND: dict[str, tuple[str, Callable[[Any], object]]] = {
         "results_of",
         lambda original: lambda paper: [replace(result, printed=result.corrected) for result in original(paper)],
     ),
-    **dict.fromkeys(("kovalevsky-schulz.54", "kovalevsky-schulz.166"), ("merged", lambda _: lambda cells: cells)),
+    "kovalevsky-schulz.166": ("merged", lambda _: lambda cells: cells),
     **dict.fromkeys(("thesis.3", "thesis.155", "thesis.169", "thesis.208"), ("programs", _without_code)),
     "thesis.65": ("programs", _listing_with("NETC", "NTC")),
     "thesis.129": ("_c_0", lambda original: lambda *points: original(*points) + 1),
