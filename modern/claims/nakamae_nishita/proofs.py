@@ -1,4 +1,4 @@
-"""Proofs of Nakamae and Nishita on front faces and overlaps; :mod:`modern.claims.algebra` checks the steps."""
+"""Proofs of Nakamae and Nishita on faces, segments and depth; :mod:`modern.claims.algebra` checks the steps."""
 
 from modern.claims import algebra
 from modern.claims.algebra import Proof, Step, bracket, cross, dot, minus, point, positive, proves, term, zero
@@ -91,4 +91,66 @@ def overlap_by_neighbours() -> Proof:
         "segment on p q overlaps the side if and only if t > 0 at one of its ends and t < 1 at one of its ends.",
         Step("the value for o p is t times that at q", {}, zero(bracket(o, p, x) - t * bracket(o, p, q))),
         Step("the value for q r is 1 - t times that at p", {}, zero(bracket(q, r, x) - (1 - t) * bracket(q, r, p))),
+    )
+
+
+@proves("nakamae-nishita.15")
+def apart() -> Proof:
+    n, q, way = (point(name, 3) for name in ("n", "q", "w"))
+    (t,) = algebra.variables("t")
+    inner = {"inner": positive(-dot(n, q)), "t": positive(t)}
+    along = {"inner": positive(-dot(n, q)), "way": zero(dot(n, way))}
+    return Proof.of(
+        "polyhedra whose contours do not overlap hide nothing of each other",
+        "Two convex polygons that do not overlap are on different sides of a line of the picture. Let f be a linear "
+        "function that is 0 on the plane through this line and the eye, not positive on V, and not negative on V'. "
+        "If V hides a point p, the line of sight of p runs through an inner point q of V, at which f is negative. Then "
+        "f is negative at p too, so that p is no point of V'. The origin is the eye or, in a parallel projection, a "
+        "point of the plane.",
+        Step("f < 0 at p = t q", inner, positive(-t * dot(n, q)), (term("inner t"),)),
+        Step(
+            "in a parallel projection, f < 0 at p = q + t w",
+            along,
+            positive(-dot(n, q) - t * dot(n, way)),
+            (term("inner"), term("way", -t)),
+        ),
+    )
+
+
+def one_order() -> Proof:
+    eye, slope, s, t = algebra.variables("e m s t")
+    in_v, in_w = algebra.not_negative(-eye - s * slope), algebra.not_negative(eye + t * slope)
+    central = {"eye": positive(eye), "s": positive(s), "v": in_v}
+    parallel = {"slope": positive(-slope), "v": in_v, "w": in_w}
+    return Proof.of(
+        "of two polyhedra, the same one is nearer on all their lines of sight, except where they touch",
+        "A plane separates two convex polyhedra V and V' that have no common inner points. Let f be a linear function "
+        "that is 0 on this plane, not positive on V, and not negative on V'. If the contours overlap, the plane does "
+        "not contain the eye, because it would then separate the contours too. Let f be e > 0 at the eye, and e + s m "
+        "and e + t m at points of V and V' on one line of sight, at the distances s and t. Then m < 0 and s >= t, and "
+        "s = t only if the two points are one. So V' is nearer on all lines of sight; if e < 0, V is. In a parallel "
+        "projection, m is the same for all lines of sight and not 0, and s and t are distances from a plane across "
+        "these lines.",
+        Step("m < 0 if e > 0", central, positive(-slope), (term("eye"), term("v")), ("s",)),
+        Step("s >= t if m < 0", parallel, algebra.not_negative(s - t), (term("v"), term("w")), ("slope",)),
+    )
+
+
+@proves(*(f"nakamae-nishita.{row}" for row in (29, 30, 31, 32, 33)))
+def meeting_of_segments() -> Proof:
+    a, b, c, d = (point(name, 2) for name in "abcd")
+    at_a, at_b, at_c, at_d = -bracket(c, d, a), -bracket(c, d, b), -bracket(a, b, c), -bracket(a, b, d)
+    common = (at_b * p - at_a * q + at_d * r - at_c * s for p, q, r, s in zip(a, b, c, d, strict=True))
+    return Proof.of(
+        "for segments that are not collinear, d is -4 if they cross, -2 if an end of one is inside the other, -1 if "
+        "two ends coincide, and otherwise 0; for collinear segments, d is 0",
+        "Let A and B be the values of formula (1) for the segment c d at a and b, and C and D those for a b at c and "
+        "d. Since B - A = -(D - C), the two factors of d are 0 or have opposite signs. If both are not 0, then A and B "
+        "differ, the lines meet only at (B a - A b) / (B - A) = (D c - C d) / (D - C), and d is -4, -2 or -1. If d is "
+        "-4, A and B have opposite signs, and so have C and D: the point is inside both segments. If d is -2, one of "
+        "the four values is 0: the point is an end of one segment and inside the other. If d is -1, one value of each "
+        "pair is 0: the point is an end of both. If d is 0, the segments are collinear, or one of them is on one side "
+        "of the line of the other and does not meet it.",
+        Step("B - A = -(D - C)", {}, zero(at_b - at_a + at_d - at_c)),
+        *(Step("the two points are one", {}, zero(difference)) for difference in common),
     )

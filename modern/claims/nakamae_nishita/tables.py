@@ -14,6 +14,7 @@ from modern.claims import algebra
 from modern.claims.appel_will.convexity import area
 from modern.claims.evidence import Check, Generator, claim, identity, proved, searched
 from modern.claims.hulls import exact_hull
+from modern.claims.nakamae_nishita.proofs import one_order
 from modern.claims.sampled_sets import CASES, SETS, Point, sampled_sets
 from modern.drawing.visible import line_through, sign, value
 from modern.geometry.mesh import sides
@@ -138,20 +139,6 @@ def formula_1() -> Check:
     return identity(difference, (2, 2, 2, 2, 1, 1), message, argument)
 
 
-@claim("nakamae-nishita.29", "nakamae-nishita.30", "nakamae-nishita.31", full=25)
-@claim("nakamae-nishita.32", "nakamae-nishita.33", full=25)
-def formula_3(cases: int = CASES) -> Check:
-    meetings = [meeting for v, w in pairs(cases) for meeting in numbers_of_meetings(v, w)]
-    numbers = Counter(d for d, _, in_line in meetings if not in_line)
-    touching = [bool(expected) for _, expected, in_line in meetings if in_line]
-    # The paper states no value for collinear segments that touch or overlap.
-    outcomes = [d == (0 if in_line else expected) for d, expected, in_line in meetings]
-    message = f"d has the value of section 3.2 for {numbers.total()} pairs of segments that are not collinear ("
-    message += ", ".join(f"{d} for {n}" for d, n in numbers.items())
-    message += f"); d is 0 for {len(touching)} collinear pairs, {sum(touching)} of which touch or overlap"
-    return searched(POLYGONS, 2 * cases, [*outcomes, {*numbers} == {-4, -2, -1, 0}, any(touching)], message)
-
-
 @claim("nakamae-nishita.37", conclusion="formula (5) is positive if the vertex is nearer, negative if the face is")
 @claim("nakamae-nishita.60", conclusion="formula (5) has the same sign at all vertices of V', so any of them decides")
 def formula_5(conclusion: str) -> Check:
@@ -163,30 +150,18 @@ def formula_5(conclusion: str) -> Check:
     printed = minors[0] - minors[1] + minors[2] - minors[3]
     outward = algebra.cross(algebra.minus(r, p), algebra.minus(q, p))
     differences = printed - computed, printed - algebra.dot(algebra.minus(x, p), outward)
+    order = one_order()
     argument = (
         "The value of formula (5) for a vertex x and corners p, q and r of a face is (x - p) n with n = (r - p) x (q - "
         "p), which points outward because the corners run clockwise as seen from outside. So the value is positive in "
-        "front of the face. A vertex behind the front face around its image is behind V, because it is not inside V. "
-        "If a vertex of V' were in front of V and another one behind it, the segment between them would meet V, "
-        "because V is convex and its contour encloses that of V'. So one vertex decides for all of them."
+        "front of the face, like the eye, and negative behind it: x is nearer or farther than the point of the face "
+        f"with the same image. The order of these two points is that of V' and V. {order.argument}"
     )
     face = plane_through((0, 0, 0, 1), (0, 4, 0, 1), (4, 4, 0, 1))  # clockwise as seen from above
     above, on, below = (sign(height(face, (1, 2, z, 1))) for z in (1, 0, -1))
-    check = proved(argument, [d == 0 * unit for d in differences], conclusion)
+    steps = [*(d == 0 * unit for d in differences), *(step.is_valid() for step in order.steps)]
+    check = proved(argument, steps, conclusion)
     return check.unless(above > on == 0 > below, "a vertex in the face, for which formula (5) is 0")
-
-
-@cache
-def numbers_of_meetings(v: tuple[Place, ...], w: tuple[Place, ...]) -> list[tuple[int, int, bool]]:
-    """Return for each pair of sides: d by formula (3), d as the paper states it, and whether they are collinear."""
-    d_of, meetings = tables_of(v, w).crossing_number, []
-    for (i, (a, b)), (j, (c, d)) in product(enumerate(sides(v)), enumerate(sides(w))):
-        # Section 3.2: -4 for a crossing, -2 for a vertex on a segment, -1 for a common vertex, else 0.
-        touching = [p for p in {a, b} if between(c, d, p)] + [p for p in {c, d} if between(a, b, p)]
-        in_line, same = side(a, b, c) == side(a, b, d) == 0, {a, b} & {c, d}
-        expected = -1 if same else -2 if touching else -4 if crosses(a, b, c, d) else 0
-        meetings.append((d_of(i, j), expected, in_line))
-    return meetings
 
 
 def between(p: Place, q: Place, r: Place) -> bool:
@@ -252,11 +227,11 @@ def intersection_counts(cases: int = CASES) -> Check:
             # The corners on the segment, and the ends of the segment on the contour: two if it runs along a side.
             touched = {p for p in v if between(a, b, p)} | {e for e in (a, b) for p, q in sides(v) if between(p, q, e)}
             along += len(touched) == 2 and any(side(p, q, a) == side(p, q, b) == 0 for p, q in sides(v))
-            by_3 = [side(p, q, a) != side(p, q, b) and side(a, b, p) != side(a, b, q) for p, q in sides(v)]
+            by_3 = [(side(p, q, a) - side(p, q, b)) * (side(a, b, p) - side(a, b, q)) for p, q in sides(v)]
             counts[crossed + len(touched)] += 1
-            most = max(most, sum(by_3))
+            most = max(most, by_3.count(-2))
     message = f"{counts.total()} segments cross or touch a contour in 0, 1 or 2 points, if only the ends of a common "
-    message += f"part ({along} segments) count; formula (3) counts up to {most}, as it counts a corner for both sides"
+    message += f"part ({along} segments) count; d is -2 for up to {most} sides of a contour, two at each corner"
     return searched(POLYGONS, 2 * cases, [{*counts} == {0, 1, 2}, along, most > 2], message)
 
 

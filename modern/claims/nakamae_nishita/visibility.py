@@ -6,9 +6,10 @@ from functools import cache
 from itertools import combinations, groupby, pairwise, permutations
 
 from modern.claims import algebra
-from modern.claims.evidence import Check, claim, exhibited, proved, refuted, search, searched, slip
+from modern.claims.evidence import Check, claim, exhibited, proved, refuted, searched, slip
 from modern.claims.invariants import counts_in_table_1
-from modern.claims.nakamae_nishita.drawings import SCENES, Box, drawn, orders, pieces_against_rays, polyhedra
+from modern.claims.nakamae_nishita.drawings import box, pieces_against_rays, polyhedra
+from modern.claims.nakamae_nishita.proofs import one_order
 from modern.claims.nakamae_nishita.tables import POLYGONS, SQUARE, Place, between, crosses, lines_of
 from modern.claims.sampled_sets import counterexample, counterexample_points
 from modern.drawing.visible import CONTOUR, INNER, sign, value
@@ -38,7 +39,7 @@ def order_of_invisibility(cases: int = 2) -> Check:
 
 
 def _two_boxes(at: tuple[int, int, int]) -> Drawing:
-    return draw(polyhedra((((0, 0, 0), (2, 2, 2)), (at, plus(at, (2, 2, 2))))), parallel((2, -3, 1)), hidden=True)
+    return draw(polyhedra((box((0, 0, 0), (2, 2, 2)), box(at, plus(at, (2, 2, 2))))), parallel((2, -3, 1)), hidden=True)
 
 
 @cache
@@ -102,25 +103,21 @@ def formula_4() -> Check:
     argument += "u, which is negative if P_1 is nearer, and positive if P_2 is nearer."
     decided = [(relation.by, relation.nearer) for relation in _two_boxes((1, 3, 0)).relations] == [(BY_CROSSING, 1)]
     check = proved(argument, [nearer.is_valid(), farther.is_valid()], "the sign of formula (4) tells the nearer point")
-    case = "two boxes that touch: formula (4) is 0, and only a separating plane decides which box is nearer"
-    return check.unless(decided and _undecided_if_touching(), case)
+    return check.unless(decided and _touching_boxes(), _touching_boxes())
 
 
-def _undecided_if_touching() -> bool:
-    """Return True if formula (4) cannot order two touching boxes by depth and so misses hidden parts of an edge."""
+def _touching_boxes() -> str:
+    """Return the case of two boxes for which formula (4) decides nothing and hidden parts of an edge are missed."""
     scenes = [_scene("stacked.toml", *without) for without in (("touching",), ())]
     hidden = [_hidden(scene, INNER) + _hidden(scene, CONTOUR) for scene in scenes]
-    return [scene.relations[0].nearer != 0 for scene in scenes] == [False, True] and hidden[0] < hidden[1]
+    orders, crossings = [scene.relations[0].nearer for scene in scenes], scenes[0].relations[0].tables.crossings()
+    undecided = len([*crossings]) == 2 and orders[0] == 0 != orders[1] and hidden[0] < hidden[1]
+    return "two boxes that touch where their contours cross: formula (4) is 0 at both crossings" if undecided else ""
 
 
-@claim("nakamae-nishita.36", full=600)
-def nearer_polyhedron(cases: int = 3) -> Check:
-    def have_one_order(boxes: tuple[Box, ...]) -> bool:
-        relations = [relation for relation in drawn(boxes).relations if relation.by == BY_CROSSING]
-        return all(r.nearer == order for r in relations for order in orders(boxes[r.v], boxes[r.w]))
-
-    check = search(SCENES, have_one_order, cases, "on all lines of sight through two boxes, the same box is nearer")
-    return check.unless(_undecided_if_touching(), "two boxes that touch where their images meet: formula (4) is 0")
+@claim("nakamae-nishita.36")
+def nearer_polyhedron() -> Check:
+    return one_order().check().unless(_touching_boxes(), _touching_boxes())
 
 
 @claim("nakamae-nishita.42", full=100)

@@ -12,7 +12,6 @@ from typing import Any
 import pytest
 
 import modern.claims.kovalevsky_schulz.sizes as sizes
-import modern.claims.nakamae_nishita.tables as contours
 import modern.claims.thesis.chapter3_stages as stages
 from emulator.language.cards import deck_from_lines
 from emulator.language.compiler import compile_deck
@@ -23,7 +22,6 @@ from modern.claims.register import decisions
 from modern.claims.sampled_sets import SampledSet, sampled_sets
 from modern.edition import programs
 from modern.geometry.hull import Hull
-from modern.papers.nakamae_nishita.contours import Tables
 from tests.modern.claims.spoilers import is_noticed, verdict
 from tests.support.caches import cleared
 
@@ -165,19 +163,6 @@ def test_memory_condition_names_the_right_diameters(diameter: int, monkeypatch) 
 def test_memory_claim_fails_if_cell_lists_are_as_large_as_triangulations(monkeypatch) -> None:
     monkeypatch.setattr(sizes, "economical_size", lambda cells: sizes.triangulation_size(2 * len(cells.vertices) - 4))
     assert not sizes.memory_requirements().holds
-
-
-@pytest.mark.parametrize(("number", "wrong"), [(-2, -1), (-1, 0), (0, -1), (-4, -2)])
-def test_wrong_crossing_number_fails(number: int, wrong: int, monkeypatch) -> None:
-    original = Tables.crossing_number
-
-    def spoiled(tables: Tables, i: int, j: int) -> int:
-        crossing_number = original(tables, i, j)
-        return wrong if crossing_number == number else crossing_number
-
-    with cleared(contours):
-        monkeypatch.setattr(Tables, "crossing_number", spoiled)
-        assert not contours.formula_3().holds
 
 
 def test_first_sampled_sets_contain_the_cases_that_claims_are_about() -> None:

@@ -147,7 +147,7 @@ def test_the_contour_is_the_hull_of_the_images_clockwise(seed: int, in_perspecti
 
 @settings(max_examples=16)
 @given(st.integers(0, 500))
-def test_d_is_minus_4_exactly_where_segments_cross(seed: int) -> None:
+def test_d_tells_how_two_contour_segments_meet(seed: int) -> None:
     source = random.Random(seed)
     polyhedra = blocks(seed) if seed % 2 else apart(seed)
     assume(polyhedra)
@@ -159,16 +159,27 @@ def test_d_is_minus_4_exactly_where_segments_cross(seed: int) -> None:
         assert all(1 in side for side in (*zip(*relation.tables.pl, strict=True), *relation.tables.lp))
         for i, j in itertools.product(range(len(v.contour)), range(len(w.contour))):
             d = relation.tables.crossing_number(i, j)
-            assert d in (0, -1, -2, -4)
             a, b = _flat(v.images[i]), _flat(v.images[(i + 1) % len(v.contour)])
             c, e = _flat(w.images[j]), _flat(w.images[(j + 1) % len(w.contour)])
             assert (d == -4) == _properly_cross(a, b, c, e) == ((i, j) in crossing)
-            if d == -1:
-                assert {a, b} & {c, e}
+            in_line = _turn(a, b, c) == _turn(a, b, e) == 0
+            touching = any(_is_on(p, q, x) for p, q, ends in ((a, b, (c, e)), (c, e, (a, b))) for x in ends)
+            assert (d == -1) == (not in_line and bool({a, b} & {c, e}))
+            assert (d == -2) == (not in_line and touching and not {a, b} & {c, e})
+            assert d in (0, -1, -2, -4)
 
 
 def _flat(image) -> tuple[Fraction, Fraction]:
     return Fraction(image[0], image[3]), Fraction(image[1], image[3])
+
+
+def _turn(p, q, x) -> Fraction:
+    return (q[0] - p[0]) * (x[1] - p[1]) - (q[1] - p[1]) * (x[0] - p[0])
+
+
+def _is_on(p, q, x) -> bool:
+    along = (x[0] - p[0]) * (x[0] - q[0]) + (x[1] - p[1]) * (x[1] - q[1])
+    return _turn(p, q, x) == 0 and along <= 0
 
 
 def _properly_cross(a, b, c, d) -> bool:
