@@ -121,7 +121,6 @@ def incidence_by_coordinates() -> Check:
     cells = [*product(range(5), repeat=3)]
     points = {cell: [(c // 2, (c + 1) // 2) for c in cell] for cell in cells}
     near = {cell: star(cell) | sides(cell) for cell in cells}
-    # A cell is a point or a unit interval on each axis.
     intervals = [(k, k + length) for length in (0, 1) for k in range(3 - length)]
     outcomes = [sorted(points.values()) == sorted(map(list, product(intervals, repeat=3)))]
     outcomes += [dimension(cell) == sum(low < high for low, high in points[cell]) for cell in cells]
@@ -179,7 +178,6 @@ def subcomplexes() -> Check:
     for dimensions, relation in all_complexes:
         for size in range(len(dimensions) + 1):
             for chosen in combinations(range(len(dimensions)), size):
-                # By Definition SC, a subcomplex is a complex with the same dimensions and the restricted relation.
                 restricted = {(i, j) for i, j in product(range(size), repeat=2) if (chosen[i], chosen[j]) in relation}
                 part = tuple(dimensions[cell] for cell in chosen), frozenset(restricted)
                 outcomes.append(part in all_complexes and subcomplex((dimensions, relation), {*chosen}) == part)

@@ -58,13 +58,16 @@ def algorithm_against_judge(cases: int = CASES) -> Check:
 def either_treatment(cases: int = CASES) -> Check:
     outcomes = []
     for points, judge in ((GRID, exact_hull(GRID)), *hulls(cases)):
+        rings = [[points[k] for k in f.polygon] for f in judge.facets]
         for coplanar in (VISIBLE, INVISIBLE):
             straight = straightened(merged(polyhedron(points, coplanar)))
-            faces = {frozenset(straight.points[k - 1] for k in face.vertices) for face in straight.faces}
-            outcomes.append(faces == {frozenset(points[k] for k in f.polygon) for f in judge.facets})
+            at, faces = straight.points, straight.faces
+            ways = [w for e in straight.edges for w in ((e.start, e.end, e.left), (e.end, e.start, e.right))]
+            left = {(at[p - 1], at[q - 1]): {at[k - 1] for k in faces[n - 1].vertices} for p, q, n in ways}
+            outcomes.append(left == {side: {*ring} for ring in rings for side in sides(ring)})
             outcomes.append({*straight.planes()} == {f.plane for f in judge.facets})
-    message = f"the cell lists of a cubic grid and {cases} sets are those of the exact hulls, whether coplanar faces "
-    return searched(SETS[3], cases, outcomes, f"{message}count as visible or as invisible")
+    message = f"the cell lists of a cubic grid and {cases} sets have the faces and edges of the exact hulls, whether "
+    return searched(SETS[3], cases, outcomes, f"{message}coplanar faces count as visible or as invisible")
 
 
 @claim("kovalevsky-schulz.35", full=400)

@@ -176,9 +176,8 @@ def diameter_12() -> Check:
     others = half_ball_cells(12)
     cells = voxel_hull(half, neighbours=6, coplanar=INVISIBLE).polyhedron.faces
     exact = 3 * len(hull.vertices) + sum(len(facet.polygon) for facet in hull.facets)
-    case = f"the half-ball centred on a corner of voxels, which has {len(others.faces)} faces; points on straight "
-    case += f"edges, with which {len(cells.vertices)} points give {_size(cells)} integers; and the cell list itself, "
-    case += f"which has {exact} integers"
+    case = f"the half-ball centred on a corner of voxels, with {len(others.faces)} faces; points on straight edges: "
+    case += f"{len(cells.vertices)} points and {_size(cells)} integers; and the cell list itself, with {exact} integers"
     refutes = len(others.faces) != row.faces and row.integers not in (exact, _size(cells))
     return exhibited(agrees, message).unless(refutes, case)
 
@@ -190,7 +189,6 @@ def symmetric_faces() -> Check:
         points = half_ball_cells(row.diameter).points
         rings = [[points[k] for k in facet.polygon] for facet in exact_hull(points).facets]
         asymmetric[row.diameter] = sum(not _is_symmetric(ring) for ring in rings)
-        # A reflection and the exchange of x and y generate the symmetries of a half-ball.
         total = min(points)[0] + max(points)[0]
         faces = {*map(frozenset, rings)}
         outcomes.append(faces == {frozenset((total - x, y, z) for x, y, z in face) for face in faces})
