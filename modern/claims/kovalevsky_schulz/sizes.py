@@ -83,8 +83,8 @@ def vertices_of_a_face() -> Check:
         points, faces = [sum(len(f.vertices) for f in c.faces) for c in bodies], [len(c.faces) for c in bodies]
         means.append((Fraction(sum(points), sum(faces)), sum(map(Fraction, points, faces)) / len(bodies)))
     texts = [f"{float(a):.2f} for all faces together, {float(b):.2f} for the half-balls' means" for a, b in means]
-    faces, vertices, _ = numbers_in(corrected_print("kovalevsky-schulz")["table4-hull"][0])
-    message = f"mean number of points of a face: {texts[0]}; {2 * (vertices + faces - 2) / faces:.2f} for Table 4"
+    f, v, _ = numbers_in(corrected_print("kovalevsky-schulz")["table4-hull"][0])
+    message = f"mean number of points of a face: {texts[0]}; {2 * (v + f - 2) / f:.2f} for Table 4"
     check = exhibited(all(round(mean) == 5 for mean in means[0]), message)
     return check.unless(all(round(mean) != 5 for mean in means[1]), f"the mean number of vertices: {texts[1]}")
 
