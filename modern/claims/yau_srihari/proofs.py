@@ -6,7 +6,7 @@ from modern.claims import algebra
 from modern.claims.algebra import Proof, Step, dot, not_negative, point, positive, proves, term, turn, variables, zero
 from modern.claims.evidence import Check, claim
 from modern.claims.kovalevsky_schulz.proofs import lemma_lz
-from modern.claims.yau_srihari.envelopes import algorithm_as_printed
+from modern.claims.yau_srihari.envelopes import algorithm_as_printed, disconnected_hull
 from modern.papers.yau_srihari import Printed
 from modern.papers.yau_srihari.search import Search
 
@@ -101,6 +101,29 @@ def theorem_1() -> Proof:
         Step("a point between the envelopes is a combination of their points", {}, between),
         Step("the weights have the sum high - low", {}, zero((high - z) + (z - low) - (high - low))),
     )
+
+
+def smallest_solid() -> Proof:
+    c, d, k = variables("c d k")
+    lower_end = {"d": not_negative(d - c), "k": positive(c + 1 - k)}
+    return Proof.of(
+        "a solid that contains S and passes the test of convexity contains all digital points of the hull of S",
+        "A line along an axis through a digital point d of a solid's hull leaves the hull at two points of faces, and "
+        "these are semidigital. If the solid passes the test, it has digital points near both ends. They lie on the "
+        "line, because integers that differ by less than 1 are equal. Let k be near the lower end c. As k < c + 1 and "
+        "c <= d, the integer k is at most d. The other point is at least d. A simple solid has no gap between these "
+        "two points, and so contains d. The hull of a solid that contains S contains the hull of S, the set between "
+        "the envelopes (theorem 1). If the digital points of the hull of S pass the test, no such solid is smaller.",
+        Step("k is less than d + 1", lower_end, positive(d + 1 - k), (term("d"), term("k"))),
+        *theorem_1().steps,
+    )
+
+
+@claim("yau-srihari.49")
+def digital_hull_by_envelopes() -> Check:
+    message = "digital points between the envelopes that pass the test are the smallest such solid that contains S"
+    stairs = disconnected_hull()
+    return smallest_solid().check(message).unless(not stairs.holds, f"voxels like stairs: {stairs.message}")
 
 
 def theorem_2() -> Proof:

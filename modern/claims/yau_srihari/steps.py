@@ -9,6 +9,7 @@ from modern.claims.evidence import Check, Generator, claim, exhibited, refuted, 
 from modern.claims.hulls import exact_hull, octree_hull
 from modern.claims.sampled_sets import Point, counterexample_points
 from modern.claims.yau_srihari.envelopes import SOLIDS, array_of, envelopes_against_judge, hull_of, moved
+from modern.claims.yau_srihari.proofs import smallest_solid
 from modern.digital.solids import VERTEX, ball
 from modern.geometry.mesh import sides
 from modern.papers.yau_srihari import OctreeHull, Printed
@@ -30,6 +31,14 @@ def minimum_not_unique() -> Check:
         outcomes += [not is_convex(array_of(both)), *(is_convex(array_of([*both, p])) for p in ((1, 0, 0), other))]
     message = "two voxels fail definition 3.2.2 (or the test of 3.2.3), but satisfy it if either of two others is added"
     return exhibited(all(outcomes), message)
+
+
+@claim("yau-srihari.35")
+def smallest_convex_solid() -> Check:
+    path, *larger = (array_of([*counterexample_points("yau_path.csv"), *p]) for p in ([], [(1, 0, 1)], [(1, 1, 1)]))
+    is_own_hull = (octree_hull(path).filled == path).all() and not is_digitally_convex(path)
+    case = f"a path of six voxels, which becomes convex if one of {len(larger)} other voxels is added"
+    return smallest_solid().check().unless(is_own_hull and all(map(is_digitally_convex, larger)), case)
 
 
 @claim("yau-srihari.29")
