@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 from dataclasses import replace
+from fractions import Fraction
 from functools import cache
 from itertools import combinations, product
 from math import comb
@@ -22,7 +23,7 @@ from modern.papers.yau_srihari.convexity import convex_deficiency, half_cell_exp
 from modern.papers.yau_srihari.hull import components
 from modern.papers.yau_srihari.octree import count, voxels_of
 from modern.papers.yau_srihari.quadtree import Leaf, graph_side, no_columns, written
-from modern.papers.yau_srihari.search import Bounds, Search, normal_of
+from modern.papers.yau_srihari.search import Search, normal_of
 
 SOLID: tuple[Point, ...] = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (2, 1, 0), (2, 1, 1), (2, 2, 1), (2, 2, 2), (1, 2, 2))
 
@@ -62,7 +63,7 @@ def _placed(voxels: tuple[Point, ...]) -> tuple[Point, ...]:
 
 
 @cache
-def _envelopes_agree(voxels: tuple[Point, ...]) -> bool:
+def judge_agrees(voxels: tuple[Point, ...]) -> bool:
     """Return True if the envelopes have the exact hull's faces, and digital hulls of solid and projection are exact."""
     points, hull = _placed(voxels), hull_of(voxels)
     judge = exact_hull(points)
@@ -99,7 +100,7 @@ def algorithm_as_printed(name: str) -> Check:
 @claim("yau-srihari.2", "yau-srihari.4", "yau-srihari.49", full=500)
 def envelopes_against_judge(cases: int = 3) -> Check:
     message = "the envelopes have the exact hull's faces, and the digital points between them are those of the hull"
-    return search(SOLIDS, _envelopes_agree, cases, message)
+    return search(SOLIDS, judge_agrees, cases, message)
 
 
 @claim("yau-srihari.120", names="angle triangles", full=400)
@@ -109,23 +110,21 @@ def corrected_step(names: str, cases: int = 2) -> Check:
     return envelopes_against_judge(cases).unless(not any(step.holds for step in as_printed.values()), case)
 
 
-class _AsPrinted(Search):
-    # Delta_1 is computed at the largest height over a square, as the paper prints it.
-    def bounds(self, low: int, high: int, x: int, y: int, side: int) -> Bounds:
-        printed = Search(self.start, self.end, self.normal, Printed.only("bound"))
-        return printed.bounds(low, high, x, y, side)[0], super().bounds(low, high, x, y, side)[1]
-
-
 @claim("yau-srihari.70", full=100)
 def lower_bound_as_printed(cases: int = 2) -> Check:
-    def finds_same(voxels: tuple[Point, ...]) -> bool:
-        tree, steps = hull_of(voxels).lowest, hull_of(voxels).lower.steps
-        starts = [(*step.edge, step.normal, Printed()) for step in steps]
-        return _envelopes_agree(voxels) and all(Search(*s).run(tree) == _AsPrinted(*s).run(tree) for s in starts)
+    def is_lower_bound(voxels: tuple[Point, ...]) -> bool:
+        outcomes, lower = [judge_agrees(voxels)], hull_of(voxels).lower
+        surface = {at: Fraction(*face.height(*at)) for face in lower.faces for at in face.places()}
+        for step, side, x, y in product(lower.steps, (1, 2, 4), range(6), range(6)):
+            known = Search(*step.edge, step.normal, Printed.only("bound"))
+            if step.face and (above := {*product(range(x, x + side), range(y, y + side))} & {*surface}):
+                delta_1, _ = known.bounds(0, max(surface[at] for at in above), x, y, side)  # type: ignore[arg-type]
+                outcomes.append(delta_1 is None or delta_1 <= (known.score(step.face.vertices[2]) or 0))
+        return all(outcomes)
 
-    message = "searches with delta_1 at the printed height find the same points of the next faces as corrected searches"
+    message = "delta_1, at the largest height of the envelope over a square, is at most the angle of the next face"
     case = corrected_step("angle", 1).evidence.violation
-    return search(SOLIDS, finds_same, cases, message).unless(case, case)
+    return search(SOLIDS, is_lower_bound, cases, message).unless(case, case)
 
 
 @claim("yau-srihari.68", full=400)
@@ -152,7 +151,7 @@ def disconnected_hull() -> Check:
 def solid_from_deficiency(cases: int = 3) -> Check:
     def is_described(voxels: tuple[Point, ...]) -> object:
         solid, hull = array_of(voxels), hull_of(voxels).filled
-        return _envelopes_agree(voxels) and np.array_equal(hull & ~convex_deficiency(solid), solid)
+        return judge_agrees(voxels) and np.array_equal(hull & ~convex_deficiency(solid), solid)
 
     message = "the digital points in the exact hull of each solid, without the deficiency, are those of the solid"
     return search(SOLIDS, is_described, cases, message)
@@ -190,16 +189,6 @@ def floor_and_ceiling() -> Check:
     return slip((alpha, beta) == (ceiling, floor), (alpha, beta) == (floor, ceiling), "floor and ceiling", message)
 
 
-@claim("yau-srihari.56", full=500)
-def extreme_points_in_floor(cases: int = 5) -> Check:
-    def are_in_floor(voxels: tuple[Point, ...]) -> bool:
-        points, floor = _placed(voxels), {(*at, z) for at, z in hull_of(voxels).floor.items()}
-        # The extreme points of the convex envelope are the vertices of the faces that are seen from below.
-        return {points[k] for f in exact_hull(points).facets if f.plane[2] < 0 for k in f.polygon} <= floor
-
-    return search(SOLIDS, are_in_floor, cases, "all extreme points of the envelope are points of the floor")
-
-
 @claim("yau-srihari.67", full=500)
 def rule_1(cases: int = 5) -> Check:
     # Each face, seen from below, is on one side of its directed edges, and no two faces share one.
@@ -234,13 +223,14 @@ def triangles_of_a_hull(cases: int = 2) -> Check:
     for sampled in sampled_sets(3, 4 * cases):
         points = sampled.points[:6]
         planes = {three: plane_through(*(points[k] for k in three)) for three in combinations(range(6), 3)}
-        values = {three: [plane_value(p, point) for point in points] for three, p in planes.items() if any(p)}
-        supporting = [three for three, row in values.items() if min(row) >= 0 or max(row) <= 0]
-        if all(values[three].count(0) == 3 for three in supporting):
+        # A number is positive for the points below the plane of a triangle.
+        values = {three: [-p[2] * plane_value(p, q) for q in points] for three, p in planes.items() if p[2]}
+        supporting = [three for three, row in values.items() if max(row) <= 0]
+        if {values[three].count(0) for three in supporting} == {3}:
             sets += 1
-            faces = {frozenset(facet.polygon) for facet in exact_hull(points).facets}
+            faces = {frozenset(facet.polygon) for facet in exact_hull(points).facets if facet.plane[2] < 0}
             outcomes += [(frozenset(three) in faces) == (three in supporting) for three in values]
-    generator = replace(SETS[3], name=f"the first six points of {SETS[3].name}, without four in a supporting plane")
+    generator = replace(SETS[3], name=f"the first six points of {SETS[3].name}, without four in the plane of a face")
     check = searched(generator, sets, outcomes, f"the statement is true for {len(outcomes)} triangles")
     # A face that is seen from below and has more than three corners is none of the triangles of its corners.
     facets = exact_hull(counterexample_points("yau_triangles.csv")).facets

@@ -212,6 +212,19 @@ def extreme_point_of_plane() -> Proof:
     )
 
 
+@proves("yau-srihari.56")
+def extreme_points_in_floor() -> Proof:
+    m, n, above, other = variables("m n above other")
+    signs = {"above": positive(above), "other": not_negative(other), "m": positive(m), "n": positive(n)}
+    return Proof.of(
+        "each extreme point of the envelope is a point of the floor",
+        "A point v of the surface is a combination of floor points. If v is none of them, v is between one of them and "
+        "a combination of the others. Both are on the surface, and v is not extreme: if one of the two were above the "
+        "surface, the combination of the surface points below them would be lower than v.",
+        Step("it is lower", signs, positive(m * above + n * other), (term("m above"), term("n other"))),
+    )
+
+
 @proves("yau-srihari.84")
 def normal_of_starting_face() -> Proof:
     start, end, (c,) = point("w", 3), point("u", 3), variables("c")

@@ -8,7 +8,7 @@ from modern.claims.appel_will.convexity import area
 from modern.claims.evidence import Check, Generator, claim, exhibited, refuted, searched
 from modern.claims.hulls import exact_hull, octree_hull
 from modern.claims.sampled_sets import Point, counterexample_points
-from modern.claims.yau_srihari.envelopes import SOLIDS, array_of, envelopes_against_judge, hull_of, moved
+from modern.claims.yau_srihari.envelopes import SOLIDS, array_of, envelopes_against_judge, hull_of, judge_agrees, moved
 from modern.claims.yau_srihari.proofs import smallest_solid
 from modern.digital.solids import VERTEX, ball
 from modern.geometry.mesh import sides
@@ -52,16 +52,16 @@ def simple_with_a_tunnel() -> Check:
 
 @claim("yau-srihari.85", full=500)
 def queued_edges_reversed(cases: int = 3) -> Check:
-    found = []
+    found, outcomes = 0, []
     for voxels in SOLIDS.cases(cases):
-        hull = hull_of(voxels)
-        for step in (*hull.lower.steps, *hull.upper.steps):
-            ring = step.face.vertices if step.face else ()
+        outcomes.append(judge_agrees(voxels))
+        for step in (*hull_of(voxels).lower.steps, *hull_of(voxels).upper.steps):
+            ring, found = step.face.vertices if step.face else (), found + len(step.removed)
             # Section 5 enters the edges of a new face in the directions u1 u3 and u3 u2.
-            entries = {*zip((*ring[1:], *ring[:1]), ring, strict=True)}
-            found += [((p, q) in entries, (q, p) in entries) for p, q in step.removed]
-    message = f"{len(found)} edges, all found a second time in the reverse direction, are removed from the queue"
-    return searched(SOLIDS, cases, [directions == (False, True) for directions in found], message)
+            entries = {*zip((*ring[1:], *ring[:1]), ring, strict=True)} - {step.edge[::-1]}
+            outcomes.append(entries == {*step.entered, *((q, p) for p, q in step.removed)})
+    message = f"all faces are found if {found} edges that are in the queue in the reverse direction are removed from it"
+    return searched(SOLIDS, cases, outcomes, message)
 
 
 @claim("yau-srihari.51", full=400, of_ceiling=False)
