@@ -109,14 +109,15 @@ def line_as_printed(u1: int, v1: int, u2: int, v2: int) -> tuple[int, int, int]:
 
 
 @claim("thesis.40", "thesis.41", "thesis.43", "thesis.62")
-def equation_of_line() -> Check:
+@claim("thesis.63", conclusion="; a triangle has one corner off each such line, so no corners are on opposite sides")
+def equation_of_line(conclusion: str = "") -> Check:
     def difference(u1: int, v1: int, u: int, v: int, along: int, right: int) -> int:
         a, b, c = line_as_printed(u1, v1, u1 + u, v1 + v)
         return a * (u1 + along * u + right * v) + b * (v1 + along * v - right * u) + c - right * (u * u + v * v)
 
     message = "in the plane of its two coordinates, the equation is 0 exactly on the line through the two points"
     argument = "Its value at a point is the distance to the right of the line times the distance of the two points."
-    return identity(difference, (2, 2, 2, 2, 1, 1), message, argument)
+    return identity(difference, (2, 2, 2, 2, 1, 1), message + conclusion, argument)
 
 
 def with_0(point: Sequence[Any], axis: int) -> tuple[Any, Any, Any]:

@@ -45,15 +45,6 @@ def third_point(cases: int = CASES) -> Check:
     return all_hold(BOTH, 2 * cases, checks, message)
 
 
-@claim("thesis.52", full=300)
-def coplanarity_test(cases: int = CASES) -> Check:
-    checks = []
-    for sampled in flat_and_spatial_sets(cases):
-        first = plane_as_printed(*(sampled.points[k] for k in sampled.hull.history[0].added[:3]))
-        checks.append(any(plane_value(first, point) for point in sampled.points) == (not sampled.flat))
-    return all_hold(BOTH, 2 * cases, checks, "sets: exactly the flat ones lie in the plane of their first three points")
-
-
 @claim("thesis.53", full=300)
 def common_first_steps(cases: int = CASES) -> Check:
     checks = []
@@ -100,7 +91,7 @@ def classification_by_signs(cases: int = CASES) -> Check:
     return searched(BOTH, 2 * cases, [*checks, some_boundary], message)
 
 
-@claim("thesis.61", "thesis.63", "thesis.64", "thesis.88", full=300)
+@claim("thesis.61", "thesis.64", "thesis.88", full=300)
 def mean_of_first_hull(cases: int = CASES) -> Check:
     right, negative = [], []
     for sampled in flat_and_spatial_sets(cases):

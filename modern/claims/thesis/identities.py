@@ -41,7 +41,8 @@ def equation_of_plane() -> Proof:
     return Proof(
         "(3.4) gives an equation of the plane through three points that are not collinear",
         "(3.4) is 0 at the three points, and A, B and C are the components of the vector product of two sides. "
-        "They are all 0 only if the points are collinear, and then the points lie in many planes.",
+        "They are all 0 only if the points are collinear, and then the points lie in many planes. Otherwise, they "
+        "lie in no other plane, because that product is perpendicular to every plane through them.",
         _all_zero("the value is 0", [*(dot(normal, p) + d for p in (P, Q, X)), *product]),
     )
 
@@ -186,6 +187,7 @@ def other_letters() -> Proof:
 
 
 @claim("thesis.51", proof=equation_of_plane)
+@claim("thesis.52", proof=equation_of_plane, conclusion="exactly the points in the plane of the three satisfy (3.4)")
 @claim("thesis.108", proof=equation_of_plane, conclusion="three points lie in a plane")
 @claim("thesis.270", proof=one_or_two_points)
 @claim("thesis.42", "thesis.44", "thesis.45", "thesis.47", proof=equations_of_line)
