@@ -108,8 +108,8 @@ def _points(theorem: Theorem) -> Check:
 
 def _equations(theorem: Theorem) -> Check:
     faults = theorem_faults(theorem, load_text())
-    message = f"the example has {theorem.points_stated} points; each equation is 0 at the points named for it"
-    message += ", and the extreme points are as stated" if theorem.extremes else ""
+    message = f"theorem {theorem.id}: {theorem.points_stated} points; each equation is 0 at the points named for it"
+    message += ", and the text names the right extreme points" if theorem.extremes else ""
     return exhibited(not faults, faults[0] if faults else message)
 
 

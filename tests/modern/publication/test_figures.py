@@ -54,7 +54,7 @@ def test_figures_agree_with_other_reports(values: dict[str, str]) -> None:
 
 REFERENCES = (
     r"^## References\n.*\Z",  # the bibliography
-    r"\[\d+\]|the level \d+ %",  # citations, the level of all intervals
+    r"\[\d+\]|\ba \d+ % confidence\s+interval",  # citations, the level of all intervals
     r"^```.*?^```",  # commands
     r"`[^`]*`",  # names
     r"\{\{.*?\}\}",  # figures
