@@ -63,8 +63,8 @@ def end_of_the_procedure(dimension: int, cases: int = 2) -> Check:
         removed[1] += len(used) - len(hull.vertices)
         removed[2] += len(hull.history[-1].equations) - len(hull.faces)
     remain, added, duplicate = removed
-    message = f"in {cases} drawn sets and a fixed one, {remain} points are neither added nor eliminated, all on the "
-    message += f"boundary; {added} added points that are no vertices and {duplicate} duplicate equations are removed"
+    message = f"in {cases} drawn sets and a fixed one, the points neither added nor eliminated ({remain}) are on the "
+    message += f"boundary; removed: added points that are no vertices ({added}), duplicate equations ({duplicate})"
     return searched(LATTICE_SETS[dimension], cases, [*outcomes, *removed], message)
 
 

@@ -108,21 +108,20 @@ def _lines_left(points: Sequence[Point], keep_last: bool) -> tuple[list[frozense
 
 @claim("thesis.103", "thesis.276", full=300)
 def plane_duplicates_as_printed(cases: int = CASES) -> Check:
-    checks, differing = [], 0
+    checks, differing, consecutive = [], 0, 0
     for points in (PYRAMID, *LATTICE_SETS[3].cases(cases)):
         hull = convex_hull(points, history=True)
         last = hull.history[-1].equations
-        kept_planes = []
-        for j, defining in enumerate(last, 1):
-            plane = plane_through(*(points[k] for k in defining))
-            # Page 34 removes plane j if it contains the three points of a later plane i.
-            if all(any(plane_value(plane, points[k]) for k in later) for later in last[j:]):
-                kept_planes.append(_unsigned(plane))
+        planes = [plane_through(*(points[k] for k in defining)) for defining in last]
+        # Page 34 removes plane j if it contains the three points of a later plane i.
+        keeps = [all(any(plane_value(p, points[k]) for k in i) for i in last[j:]) for j, p in enumerate(planes, 1)]
+        kept_planes = [_unsigned(plane) for plane, keep in zip(planes, keeps, strict=True) if keep]
+        consecutive += (False, False) in pairwise(keeps)
         checks.append(sorted(kept_planes) == sorted(_unsigned(facet.plane) for facet in exact_hull(points).facets))
         differing += kept_planes != [_unsigned(face.lowest) for face in hull.faces]
     message = f"for {sum(checks)} of {len(checks)} sets, the rule keeps one equation of each plane, for {differing} of "
-    message += "them in another order than the listing"
-    return searched(LATTICE_SETS[3], cases, [*checks, differing], message)
+    message += f"them in another order than the listing, and for {consecutive} it removes consecutive equations"
+    return searched(LATTICE_SETS[3], cases, [*checks, differing, consecutive], message)
 
 
 def _unsigned(plane: Plane) -> Plane:

@@ -127,7 +127,7 @@ def _point(theorem: Theorem, name: str) -> Point:
 def lost_candidates(theorem: Theorem) -> list[Vector]:
     """Return the possible values of the lost point P3 of theorem 4.1.
 
-    They are the points of the theorem's plane that have integer coordinates and the largest y, but no extreme x or z.
+    They are the points of its plane that have integer coordinates, the largest y, and no x or z beyond other points.
     """
     (plane,) = theorem.planes
     known = [point.at for point in theorem.points]
