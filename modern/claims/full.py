@@ -104,25 +104,21 @@ def _used(module: str, name: str) -> Set[tuple[str, str]]:
 @cache
 def imports(module: str) -> dict[str, tuple[str, str]]:
     """Return the names that a module imports from this package, each with the module and the name of its definition."""
-    return {
-        alias.asname or alias.name: (node.module, alias.name)
-        for node in ast.parse(getsource(import_module(module))).body
-        if isinstance(node, ast.ImportFrom) and node.module and node.module.startswith("modern.claims.")
-        for alias in node.names
-        if alias.name in definitions(node.module)
-    }
+    return {name: (source, own) for name, source, own in _imported(module) if own in definitions(source)}
 
 
 @cache
 def imported_modules(module: str) -> dict[str, str]:
-    """Return the full name of each module of this package that a module imports as a whole, by its name there."""
-    return {
-        alias.asname or alias.name: f"{node.module}.{alias.name}"
-        for node in ast.parse(getsource(import_module(module))).body
-        if isinstance(node, ast.ImportFrom) and node.module and f"{node.module}.".startswith("modern.claims.")
-        for alias in node.names
-        if isinstance(getattr(import_module(node.module), alias.name), ModuleType)
-    }
+    """Return the names by which a module imports other modules of this package, each with the module's full name."""
+    imported = ((name, getattr(import_module(source), own, None)) for name, source, own in _imported(module))
+    return {name: value.__name__ for name, value in imported if isinstance(value, ModuleType)}
+
+
+def _imported(module: str) -> Iterator[tuple[str, str, str]]:
+    """Yield each name that a module imports from this package, the module that it comes from, and its name there."""
+    for node in ast.parse(getsource(import_module(module))).body:
+        if isinstance(node, ast.ImportFrom) and f"{node.module}.".startswith("modern.claims."):
+            yield from ((alias.asname or alias.name, node.module or "", alias.name) for alias in node.names)
 
 
 @cache
