@@ -144,7 +144,7 @@ class Session:
         return outcome or self._ending
 
     def take(self) -> list[Event]:
-        """Return the events (cards read or punched, lines typed) since the last call, in order."""
+        """Return the events (cards read or punched, lines typed) since the last call of this method, in order."""
         events = self.devices.events
         if self.keep:
             first, self._taken = self._taken, len(events)
