@@ -77,7 +77,6 @@ def product_of_segments() -> Proof:
     )
 
 
-@proves("nakamae-nishita.66")
 def overlap_by_neighbours() -> Proof:
     o, p, q, r = (point(name, 2) for name in "opqr")
     (t,) = algebra.variables("t")

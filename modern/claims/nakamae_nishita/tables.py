@@ -14,7 +14,7 @@ from modern.claims import algebra
 from modern.claims.appel_will.convexity import area
 from modern.claims.evidence import Check, Generator, claim, identity, proved, searched
 from modern.claims.hulls import exact_hull
-from modern.claims.nakamae_nishita.proofs import one_order
+from modern.claims.nakamae_nishita.proofs import one_order, overlap_by_neighbours
 from modern.claims.sampled_sets import CASES, SETS, Point, sampled_sets
 from modern.drawing.visible import line_through, sign, value
 from modern.geometry.mesh import sides
@@ -216,6 +216,18 @@ def _property(
     clear = [i for i, line in enumerate(of_lines) if -1 not in line]
     crossed = [any(crosses(*side_of_v, *side_of_w) for side_of_w in sides(w)) for side_of_v in sides(v)]
     return [(True, not crossed[i]) for i in clear], sum(any(met[i]) for i in clear)
+
+
+@claim("nakamae-nishita.66")
+def overlap_by_tables() -> Check:
+    v, ends = ((3, 5), (6, 0), (3, 0), (0, 0)), (2, 4)
+    contours = [((3, -4), (1, 0), (x, 0), (5, 0)) for x in ends]
+    one, other = (tables_of(v, w) for w in contours)
+    # Segment 1 of each contour, from (1, 0) to (x, 0), is on the line of side 1 of V, from (6, 0) to (3, 0).
+    overlaps = [min(x, v[1][0]) > max(1, v[2][0]) for x in ends]
+    case = f"{v} with {contours[0]} or {contours[1]}: the tables are the same, but only segment 1 of the second "
+    case += "overlaps segment 1 of the first polygon"
+    return overlap_by_neighbours().check().unless(one == other and overlaps == [False, True], case)
 
 
 @claim("nakamae-nishita.41", full=25)

@@ -32,7 +32,7 @@ from modern.geometry.hull import Stage
 @claim("thesis.205", "thesis.224", kind="struck_inside", full=300)
 @claim("thesis.30", "thesis.60", kind="contained_points", full=300)
 @claim("thesis.204", "thesis.31", "thesis.78", "thesis.100", kind="finite", full=300)
-@claim("thesis.216", "thesis.72", "thesis.220", "thesis.225", kind="counts", full=300)
+@claim("thesis.216", "thesis.72", "thesis.220", kind="counts", full=300)
 @claim("thesis.75", kind="decreasing", full=300)
 @claim("thesis.68", kind="supporting", full=300)
 @claim("thesis.76", "thesis.79", "thesis.101", "thesis.255", "thesis.265", kind="accepted", full=300)

@@ -24,7 +24,7 @@ from modern.claims.sampled_sets import (
     sampled_sets,
 )
 from modern.claims.thesis.chapter3_equations import plane_as_printed
-from modern.claims.thesis.chapter3_stages import in_tetrahedron
+from modern.claims.thesis.chapter3_stages import in_tetrahedron, stage_property
 from modern.geometry.vectors import cross, dot, minus
 
 
@@ -144,6 +144,12 @@ def fourth_point_by_largest() -> Check:
     return refuted(wrong, f"{message}the listing finds the hull")
 
 
+@claim("thesis.225", full=300)
+def vertices_of_first_hull(cases: int = CASES) -> Check:
+    of_text = fourth_point_by_largest()
+    return stage_property("counts", cases).unless(not of_text.holds, f"the rule of page 29: {of_text.message}")
+
+
 @claim("thesis.89", "thesis.94", full=300)
 def new_planes(cases: int = CASES) -> Check:
     checks = []
@@ -192,8 +198,8 @@ def planes_i_and_m() -> Check:
     for sampled, before, _, i, _, _ in _with_common_edge(CASES):
         j = sampled.stages().index(before)
         with_j.append(len({*before.defining[i]} & {*before.defining[j]}) == 2)
-    message = f"{len(with_j)} pairs of planes i and m have two common points; with plane j in place of m, j being the "
-    message += f"number of the hull, {sum(with_j)} pairs do"
+    message = f"{len(with_j)} pairs of planes i and m have two common points; of as many pairs of planes i and j, "
+    message += f"with j the index of the hull H_j, {sum(with_j)} have"
     return slip(all(with_j), planes_at_common_edge().holds, "the indices i and m", message)
 
 

@@ -23,17 +23,10 @@ from modern.claims.sampled_sets import (
     reduced_plane,
     sampled_sets,
 )
+from modern.claims.thesis import chapter3_steps as steps
 from modern.claims.thesis.chapter3_boundary import LATTICE_SETS, PYRAMID, on_line
 from modern.claims.thesis.chapter3_equations import first_two_points
 from modern.claims.thesis.chapter3_stages import stage_property
-from modern.claims.thesis.chapter3_steps import (
-    fourth_point_by_largest,
-    mean_of_first_hull,
-    new_planes,
-    order_of_replacement,
-    orders_of_program_3,
-    third_point,
-)
 from modern.claims.thesis.chapter4_examples import EXTREMES_IN_A_PLANE
 from modern.claims.thesis.chapter7 import construction
 from modern.edition import programs
@@ -46,9 +39,9 @@ _RULES_OF_STAGES = ("struck_inside", "accepted", "farthest_outside", "replaced_l
 
 @claim("thesis.267", full=100)
 def text_against_listing(cases: int = CASES) -> Check:
-    losing = (fourth_point_by_largest(), line_duplicates_as_printed())
-    same_result = (order_of_elimination(cases), order_of_replacement(cases), plane_duplicates_as_printed(cases))
-    rules = [step(cases) for step in (first_two_points, third_point, mean_of_first_hull, new_planes)]
+    losing = (steps.fourth_point_by_largest(), line_duplicates_as_printed())
+    same_result = (order_of_elimination(cases), steps.order_of_replacement(cases), plane_duplicates_as_printed(cases))
+    rules = [step(cases) for step in (first_two_points, steps.third_point, steps.mean_of_first_hull, steps.new_planes)]
     rules += [stage_property(kind, cases) for kind in _RULES_OF_STAGES]
     # Other sets meet a fault of a program, which must be corrected (thesis.1).
     sets = [s for s in flat_and_spatial_sets(cases) if not convex_hull(s.points, "truncating").corrected]
@@ -57,7 +50,7 @@ def text_against_listing(cases: int = CASES) -> Check:
     message += f"finds by {len(rules)} rules of the text; {len(same_result)} steps that the text describes differently "
     message += "lead to the same hull"
     check = searched(BOTH, 2 * cases, [*agree, *(step.holds for step in (*rules, *same_result))], message)
-    case = f"two other steps, which lose the hull or a line; and by {orders_of_program_3()}"
+    case = f"two other steps, which lose the hull or a line; and by {steps.orders_of_program_3()}"
     return check.unless(not any(step.holds for step in losing), case)
 
 

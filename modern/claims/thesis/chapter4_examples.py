@@ -17,18 +17,9 @@ from modern.claims.hulls import convex_hull, exact_hull
 from modern.claims.sampled_sets import added_points, counterexample_points
 from modern.comparison.difference import disagreement
 from modern.comparison.outcome import Vector, from_cards, from_judge
-from modern.edition import programs
+from modern.edition import chapter4, programs
 from modern.edition.apparatus import build
-from modern.edition.chapter4 import (
-    THEOREMS,
-    Plane,
-    Point,
-    Theorem,
-    load_text,
-    load_theorems,
-    printed_point,
-    theorem_faults,
-)
+from modern.edition.chapter4 import THEOREMS, Point, Theorem, load_text, load_theorems, printed_point, theorem_faults
 from modern.formats.deck import data_deck
 from modern.geometry.hull import NOT_ACCEPTABLE
 from modern.geometry.vectors import independent
@@ -230,7 +221,7 @@ def procedure_of_4_8() -> Check:
     farthest = []
     for n, name in enumerate(points_of_h_5()[4:], 4):
         judge = exact_hull(_point(theorem, before).at for before in points_of_h_5()[:n])
-        planes = [Plane(0, tuple(map(Fraction, judge.plane_of(facet))), (), "", "") for facet in judge.facets]
+        planes = [chapter4.Plane(0, tuple(map(Fraction, judge.plane_of(facet))), (), "", "") for facet in judge.facets]
         largest = [(plane.at(_point(theorem, name)), max(map(plane.at, theorem.points))) for plane in planes]
         farthest.append(any(0 < value == most for value, most in largest))
     right = same[0] and same[1] and same[4] and used[8:] == ["Q9"] and hull.history[-1].outside == 6 and all(farthest)

@@ -58,13 +58,13 @@ _THREE_BEFORE_A_VERTEX = ((0, -1, 0), (1, 1, 0), (-1, 1, 0), (1, -1, 0), (-1, -1
 @claim("thesis.280", full=300)
 def error_in_program(cases: int = CASES) -> Check:
     names = ("throughc.deck", "zeroplane.deck")
-    ended = [typed(run_of(name)).endswith("ERROR IN PROGRAM") for name in names]
-    hulls = [convex_hull(points_on(deck_of(name))) for name in names]
+    ended = [typed(run).endswith("ERROR IN PROGRAM") for run in (*map(run_of, names), _first_run("E+36", 4))]
+    hulls = [convex_hull(points) for points in (*(points_on(deck_of(name)) for name in names), _SPACE[:4])]
     message = "in exact arithmetic, the corrected procedure never ends with the message; program 3 types it for "
     message += f"{names[0]}, whose hull needs the correction {', '.join(hulls[0].corrected)}"
     outcomes = [procedure_against_judge((2, 3), cases).holds, ended[0] and hulls[0].corrected]
-    right = all(ended) and all(hull.determined for hull in hulls) and not hulls[1].corrected
-    case = f"{names[1]}, whose numbers have too many digits; in exact arithmetic, it needs no correction"
+    right = all(ended) and all(hull.determined for hull in hulls) and not any(hull.corrected for hull in hulls[1:])
+    case = f"{names[1]}, which needs too many digits, and by four points of about 1E36; neither needs a correction"
     return searched(BOTH, 2 * cases, outcomes, message).unless(right, case)
 
 
@@ -126,8 +126,8 @@ def _listed(hull: CardHull) -> list[tuple[tuple[int, ...], int]]:
 
 
 @cache
-def _first_run(exponent: str) -> HullRun:
-    cards = ["".join(f"+.{x}0000000{exponent}" for x in point) for point in _SPACE]
+def _first_run(exponent: str, size: int = len(_SPACE)) -> HullRun:
+    cards = ["".join(f"+.{x}0000000{exponent}" for x in point) for point in _SPACE[:size]]
     return run_hull(deck_from_lines("small", [f"{len(cards):2}", *cards]), programs.program)
 
 

@@ -210,7 +210,7 @@ def interval_instead_of_rejection() -> Check:
     run = run_hull(with_epsilon(deck, "10"), lambda name: programs.program(name, ("epsilon",)))
     hull, judge = from_cards("epsilon", run, points), from_judge(exact_hull(points), points)
     agrees = hull.determined and disagreement(hull, judge, points).agrees
-    message = f"without e, the programs type {refusal}; with e = 10, they find the points and planes of the exact hull"
+    message = f"without e, the programs type {refusal}; with e = 10, they find the exact hull, but for truncated digits"
     return exhibited(agrees and refusal.endswith("DATA NOT ACCEPTABLE"), message)
 
 
