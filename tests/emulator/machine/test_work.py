@@ -4,6 +4,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Sequence
+from fractions import Fraction
 
 import pytest
 
@@ -11,7 +12,9 @@ from emulator.language.cards import deck_from_lines
 from emulator.machine.machine import Machine
 from emulator.machine.result import Options
 from emulator.numbers import numbers
+from emulator.numbers.exact import Exact
 from emulator.numbers.multiprecision import MultiprecisionNumbers
+from emulator.numbers.roots import square_root
 from tests.support.deckwork import agreed, machine, program
 
 DEFAULTS = ("truncating", "ibm1962", "truncating:28", "rounding:28", "float64", "float32")
@@ -72,6 +75,48 @@ def test_costly_operations_count_in_proportion_to_their_time(arithmetic, stateme
     lines[2:] = ["     1" + line for line in lines[2:]]
     state = finished(lines, arithmetic).state
     assert least <= state.work - 3 <= most
+
+
+LONG, LONGER = 3**1900, 7**10_700  # 3,012 and 30,039 bits
+THIRDS, SUM = Fraction(LONG, LONG + 2), square_root(2) * Fraction(3**630, 7**356) + square_root(3)
+# An operation of exact arithmetic, its operands, the steps of 1.2 microseconds that it took when measured, and the
+# largest permitted estimate.
+STEPS_OF_EXACT: list[tuple[str, Exact, Exact, int, int]] = [
+    ("add", LONG, LONG, 0, 1),
+    ("add", LONGER, LONG, 1, 5),
+    ("multiply", LONG, LONG, 3, 25),
+    ("divide", LONG, LONG + 2, 2, 130),
+    ("add", THIRDS, Fraction(1, LONG), 13, 130),
+    ("multiply", THIRDS, LONG, 8, 130),
+    ("SQRT", THIRDS, 0, 27, 75),
+    ("card", THIRDS, 0, 12, 120),
+    ("to_integer", LONGER, 0, 9, 5_000),
+    ("sign", THIRDS, 0, 0, 0),
+    ("add", SUM, SUM, 9, 80),
+    ("add", SUM, 1, 3, 30),
+    ("multiply", SUM, SUM, 25, 120),
+    ("divide", LONG, SUM, 81, 15_000),
+    ("sign", SUM, 0, 3, 40),
+    ("card", SUM, 0, 22, 240),
+    ("to_integer", SUM, 0, 14, 240),
+    ("integer_power", 3**63, 99, 15, 300),
+    ("integer_power", Fraction(1, 3**63), 99, 23, 2_000),
+    ("power", Fraction(3**63, 2), Fraction(-99), 32, 2_000),
+    ("power", SUM, SUM, 0, 0),
+    ("integer_power", -1, 9_999, 0, 0),
+    ("integer_power", LONG, 9_999, 0, 0),
+    ("integer_power", square_root(2) * THIRDS, 9, 530, 16_000),
+]
+
+
+@pytest.mark.parametrize(
+    ("operation", "first", "second", "measured", "most"),
+    STEPS_OF_EXACT,
+    ids=[f"{row[0]}{n}" for n, row in enumerate(STEPS_OF_EXACT)],
+)
+def test_estimates_of_exact_operations_are_not_below_their_time(operation, first, second, measured, most) -> None:
+    """Operations that are refused before they begin cost nothing."""
+    assert measured <= numbers("exact").work(operation, first, second) <= most
 
 
 @pytest.mark.parametrize("statement", ["B=EXP(A)", "B=A**A"])
