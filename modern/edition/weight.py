@@ -14,9 +14,9 @@ A variant is a listing with one altered token (:mod:`modern.edition.variants`). 
               form that no card has
 ``nothing``   no check detects the variant
 
-``equation`` and ``sibling`` are comparisons that a reader can make without running the program.  A variant is run only
-on decks for which the listing executes the altered card, until a result differs.  Each answer is stored at once, so
-that an interrupted run can be resumed.
+``equation`` and ``sibling`` are comparisons that a reader can make without running the program.  A variant is run until
+a result differs: in the state that produced the examples on all six examples, and otherwise only on decks for which the
+listing executes the altered card.  Each answer is stored at once, so that an interrupted run can be resumed.
 """
 
 import hashlib
