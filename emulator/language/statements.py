@@ -42,8 +42,8 @@ class Source:
 
     ``text`` is the statement without its number (``label``) and without blanks, and ``places`` holds the card and
     column of each character of ``text``.  The text of a FORMAT has every column from the opening parenthesis on, also
-    the blank ones.  ``kind`` is the start rule of the grammar, ``format`` for a FORMAT, or ``unknown`` if no statement
-    form matches.
+    the blank ones.  ``kind`` is the rule of the grammar by which the statement is parsed, ``format`` for a FORMAT, or
+    ``unknown`` if no statement form matches.
     """
 
     label: str
@@ -119,7 +119,7 @@ def sources(deck: Deck) -> Iterator[Source]:
 
 
 def classify(text: str) -> str:
-    """Return the kind of a statement, given without number and blanks: a start rule of the grammar, or ``unknown``."""
+    """Return the kind of a statement, given without number and blanks: the rule that parses it, or ``unknown``."""
     # FORTRAN has no reserved words: an equals sign outside parentheses makes an assignment or a DO, whatever the
     # statement begins with.  DO needs a comma after the equals sign as well.
     equals = _top_level(text, "=")

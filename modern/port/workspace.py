@@ -85,8 +85,8 @@ class Rules(NamedTuple):
     """The constants of a run: the inside point C, the tolerance e, and limits for the number of planes.
 
     ``moved`` is True if the origin was moved to C.  ``size`` is e, or -1 if there is no tolerance.  If ``relative`` is
-    True, e is multiplied by an equation's largest coefficient.  ``listed`` and ``capacity`` are the numbers of planes
-    for which the tables of the listing and of the port have room.
+    True, e is multiplied by an equation's largest coefficient.  ``listed`` is the number of planes for which the
+    listing of 1963 has room in its table, and ``capacity`` the number for which this port has room.
     """
 
     centre: NDArray[Any]
