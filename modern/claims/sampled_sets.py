@@ -23,10 +23,11 @@ _COORDINATE_LIMIT, _FEWEST_POINTS, _MOST_POINTS = 5, 7, 11
 
 def _draw_set(random: Random, dimension: int) -> tuple[Point, ...]:
     size = random.randint(_FEWEST_POINTS, _MOST_POINTS)
+    a, b, c = (random.randint(-2, 2) for _ in range(3)) if dimension == 2 else (0, 0, 0)
     distinct: dict[Point, None] = {}
     while len(distinct) < size:
         x, y, z = (random.randint(-_COORDINATE_LIMIT, _COORDINATE_LIMIT) for _ in range(3))
-        distinct[(x, y, z) if dimension == 3 else (x, y, x - 2 * y + 3)] = None
+        distinct[x, y, z if dimension == 3 else a * x + b * y + c] = None
     return tuple(distinct)
 
 
@@ -34,9 +35,10 @@ def _has_dimension(points: tuple[Point, ...], dimension: int) -> bool:
     return exact_hull(points).dimension == dimension
 
 
-# Generators by dimension: 2, sets in an oblique plane; 3, sets in space. The first two sets of each have the cases that
-# some checks need: points inside the hull, a point on its boundary and, in space, a face with four corners. Samples
-# of another dimension, for example coplanar points in space, are skipped.
+# Generators by dimension: 2, sets each in a drawn plane; 3, sets in space. The first two sets of each have the cases
+# that some checks need: points inside the hull, a point on its boundary and, in space, a face with four corners.
+# Samples of another dimension, for example coplanar points in space, are skipped.
+_PLANE = "a plane z = ax + by + c with a, b and c from -2 to 2, x and y"
 SETS = {
     dimension: Generator(
         f"sets of 7 to 11 points in {place} from -5 to 5",
@@ -44,13 +46,13 @@ SETS = {
         partial(_draw_set, dimension=dimension),
         partial(_has_dimension, dimension=dimension),
     )
-    for dimension, seed, place in ((2, 1965, "the plane z = x - 2y + 3, x and y"), (3, 313, "space, coordinates"))
+    for dimension, seed, place in ((2, 1963, _PLANE), (3, 313, "space, coordinates"))
 }
 
 
 # This generator draws the same number of sets in a plane and in space, with a separate seed for each kind.
 BOTH = Generator(
-    "as many sets of 7 to 11 points in the plane z = x - 2y + 3 (seed 1965) as in space", SETS[3].seed, SETS[3].draw
+    "as many sets of 7 to 11 points in planes z = ax + by + c (seed 1963) as in space", SETS[3].seed, SETS[3].draw
 )
 
 
@@ -157,7 +159,7 @@ def _drawn(dimension: int) -> tuple[list[SampledSet], Random]:
 
 
 def sampled_sets(dimension: int, count: int) -> tuple[SampledSet, ...]:
-    """Return ``count`` sets in space (dimension 3) or in an oblique plane (2); some have three collinear points."""
+    """Return ``count`` sets in space (dimension 3) or each in a plane (2); some have three collinear points."""
     sets, random = _drawn(dimension)
     while len(sets) < count:
         points = SETS[dimension].draw(random)

