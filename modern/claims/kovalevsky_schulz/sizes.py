@@ -101,10 +101,8 @@ def formula_6() -> Check:
 
 @claim("kovalevsky-schulz.157")
 def edges_at_vertex() -> Check:
-    outcomes = []
-    for sides in range(3, 21):
-        pyramid = polyhedron([*((k, k * k, 0) for k in range(sides)), (0, 0, 1)])
-        outcomes.append(max(len(vertex.edges) for vertex in merged(pyramid).vertices) == sides)
+    pyramids = [polyhedron([*((k, k * k, 0) for k in range(n)), (0, 0, 1)]) for n in range(3, 21)]
+    outcomes = [max(len(vertex.edges) for vertex in merged(p).vertices) == n for n, p in enumerate(pyramids, 3)]
     message = f"in {len(outcomes)} pyramids, the apex has as many edges as the base has sides"
     return exhausted("numbers of edges from 3 to 20", outcomes, message)
 
