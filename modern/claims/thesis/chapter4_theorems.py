@@ -131,22 +131,22 @@ def no_negative_x() -> Check:
 
 @claim("thesis.142", "thesis.143")
 def outside_of_line_1() -> Check:
-    # The corner of both lines is the origin, and no given point is beyond it: P_1 has the largest x, P_2 the smallest.
-    (x, y), (x2, y2), (x3, y3) = (point(name, 2) for name in ("h", "q", "r"))
-    steps = []
-    for sign in (1, -1):
-        # The triangle P_1 P_2 P_3 is counterclockwise; P_2 P_1 P_3, with the origin at P_2, is clockwise.
-        signs = {
-            "area": positive(sign * (x2 * y3 - x3 * y2)),
-            "first": positive(-sign * (x2 * y - x * y2)),
-            "other": positive(sign * (x3 * y - x * y3)),
-            "end": positive(-sign * x2),
-            "third": not_negative(-sign * x3),
-        }
-        certificate = (term("end other"), term("third first"))
-        steps.append(Step("the point is beyond the corner", signs, positive(sign * x), certificate, ("area",)))
-    argument = "A point outside both lines is beyond their corner, at which x is largest or smallest of all points"
-    return proved(argument, (step.is_valid() for step in steps), "no point is outside line 1 and another line")
+    # The corner P_1 is the origin, and the coordinate that the linear function L gives is largest there.
+    (x, y), (x2, y2), (x3, y3) = corners = [point(name, 2) for name in ("h", "q", "r")]
+    slope_x, slope_y = variables("L_1 L_2")
+    at_h, at_q, at_r = (slope_x * u + slope_y * v for u, v in corners)
+    signs = {
+        "area": positive(x2 * y3 - x3 * y2),
+        "first": positive(x * y2 - x2 * y),
+        "other": positive(x3 * y - x * y3),
+        "end": positive(-at_q),
+        "third": not_negative(-at_r),
+    }
+    certificate = (term("end other"), term("third first"))
+    step = Step("the point is beyond the corner", signs, positive(at_h), certificate, ("area",))
+    argument = "A point outside both lines is beyond their corner P_1, at which a coordinate is largest or smallest of "
+    argument += "all. The same is true at P_2, because a reflection exchanges P_1 and P_2"
+    return proved(argument, [step.is_valid()], "no point is outside line 1 and another line")
 
 
 @claim("thesis.243")

@@ -131,11 +131,11 @@ def theorem_4_1() -> Check:
     return proved(argument, coplanar_extremes(), "the six points can be coplanar, whichever of them coincide (87 ways)")
 
 
-@claim("thesis.112")
+@claim("thesis.112", "thesis.115")
 def theorem_4_2() -> Check:
     argument = "The faces of Table 1 form a sphere without self-intersection. Its corners are the six extreme points. "
     argument += "Two faces are not in supporting planes"
-    return proved(argument, table_1(), "the polyhedron of Table 1 is not convex")
+    return proved(argument, table_1(), "the faces of Table 1 bound a polyhedron that is not convex")
 
 
 @claim("thesis.146", "thesis.148")
