@@ -70,7 +70,7 @@ def lemma_ch() -> Proof:
 
 
 @proves("kovalevsky-schulz.14", "kovalevsky-schulz.16", "kovalevsky-schulz.17")
-@proves("kovalevsky-schulz.121", conclusion="a smaller convex polyhedron does not contain all vertices")
+@proves("kovalevsky-schulz.121", conclusion="a smaller convex polyhedron inside another does not have all its vertices")
 @proves("kovalevsky-schulz.167", conclusion="a vertex of a convex polyhedron is no combination of its other points")
 @proves("appel-will.16", conclusion="a combination of points that are already listed is not a new vertex")
 @proves("appel-will.19", conclusion="all vertices of the hull are vertices of the polyhedron")
@@ -83,7 +83,7 @@ def no_combination() -> Proof:
         "in the set, and no vertex of a polyhedron's hull lies inside the polyhedron, a face or an edge. A polyhedron "
         "all of whose vertices are other points of the given one does not contain the vertex. By Minkowski's theorem "
         "every point is a combination of vertices. So a convex polyhedron that contains all vertices contains the "
-        "whole polyhedron, and a smaller one does not contain all vertices.",
+        "whole polyhedron, and a smaller one inside it does not contain all vertices.",
         algebra.largest_value(),
         *algebra.combination_satisfies(),
     )
@@ -94,13 +94,12 @@ def no_combination() -> Proof:
 def choice_of_q() -> Proof:
     n, p, q, r = (point(name, 3) for name in "npqr")
     in_face, difference = zero(dot(n, minus(q, r))), zero(dot(n, minus(p, q)) - dot(n, minus(p, r)))
-    says = "the product of the normal with P - Q does not depend on Q"
     return Proof.of(
         "the product of a face's normal with the vector P - Q to a point P is the same for all points Q of the face",
         "The normal is perpendicular to vectors from one point of the face to another. So its product with P - Q is "
         "the same for all points Q of the face. By definition VI the product is positive for a visible face, so that "
         "the angle is acute, and negative for an invisible face, so that the angle is obtuse.",
-        Step(says, {"face": in_face}, difference, (term("face", -1),)),
+        Step("its product with P - Q does not depend on Q", {"face": in_face}, difference, (term("face", -1),)),
     )
 
 
@@ -121,7 +120,6 @@ def halves() -> Proof:
     )
 
 
-@proves("kovalevsky-schulz.78")
 def size_of_triangulation() -> Proof:
     v, e, t, chi = variables("V E T chi")
     surface, vertices = {"sides": zero(3 * t - 2 * e), "chi": zero(v - e + t - chi)}, zero(2 * v - t - 2 * chi)

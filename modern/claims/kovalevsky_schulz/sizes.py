@@ -4,7 +4,7 @@ The half-balls are those of Table 5. The paper does not define how a half-ball i
 """
 
 from fractions import Fraction
-from itertools import chain
+from itertools import chain, product
 
 import numpy as np
 
@@ -12,13 +12,14 @@ from modern.claims.evidence import Check, claim, exhausted, exhibited, refuted, 
 from modern.claims.hulls import exact_hull
 from modern.claims.invariants import HalfBall, corrected_print, half_balls, may_be_convex, numbers_in
 from modern.claims.kovalevsky_schulz.polyhedra import polyhedron
+from modern.claims.kovalevsky_schulz.proofs import size_of_triangulation
 from modern.claims.published import PAPERS, results_of
 from modern.claims.sampled_sets import Point
 from modern.digital.solids import Volume, as_volume, half_ball
 from modern.geometry.vectors import dot, minus
 from modern.papers.kovalevsky_schulz import CENTRES, INVISIBLE, VERTICES, VISIBLE, local_corners, voxel_hull
 from modern.papers.kovalevsky_schulz.cells import CellList, cell_list_size, economical_size, triangulation_size
-from modern.papers.kovalevsky_schulz.hull import RASTER, SHUFFLED, merged, straightened
+from modern.papers.kovalevsky_schulz.hull import SHUFFLED, merged, straightened
 from modern.papers.kovalevsky_schulz.results import half_ball_cells
 
 
@@ -89,6 +90,14 @@ def vertices_of_a_face() -> Check:
     return check.unless(all(round(mean) != 5 for mean in means[1]), f"the mean number of vertices: {texts[1]}")
 
 
+@claim("kovalevsky-schulz.78")
+def formula_5() -> Check:
+    octahedron = polyhedron([(x, y, z) for x, y, z in product((-1, 0, 1), repeat=3) if x * x + y * y + z * z == 1])
+    triangles, size = len(octahedron.faces), 3 * (len(octahedron.vertices) + len(octahedron.faces))
+    case = f"voxels without neighbours: octahedra of {triangles} triangles, each with {size} integers"
+    return size_of_triangulation().check().unless(size > 1.1 * triangulation_size(triangles), case)
+
+
 @claim("kovalevsky-schulz.81")
 def formula_6() -> Check:
     groups = (*_bodies(), *([half_ball_cells(row.diameter)] for row in half_balls()))
@@ -142,21 +151,20 @@ def row_of_table_5(diameter: int) -> Check:
     hull = straightened(cells)
     agrees = (len(cells.faces), _size(cells)) == (row.faces, row.integers) and row.has_quarter_turns()
     message = f"{len(cells.faces)} faces and {len(cells.vertices)} points give {_size(cells)} integers by formula (6)"
-    centres = (0, 0, 0), (0, 0, 1), (1, 1, 0)
+    centres = (0, 1, 0), (0, 0, 0), (0, 0, 1), (1, 1, 0)
     moved = [voxel_hull(_half_ball(diameter, *o), VERTICES, 6, INVISIBLE).polyhedron.faces for o in centres]
-    numbers = [(len(moved_cells.faces), _size(moved_cells)) for moved_cells in moved]
+    beside, *numbers = [(len(moved_cells.faces), _size(moved_cells)) for moved_cells in moved]
+    message += ", as for a centre between two voxels" if beside == (row.faces, row.integers) else ""
     case = "half-balls centred on a voxel, between two layers, and between four voxels of a layer, which have "
     case += f"{', '.join(f'{faces} faces and {integers} integers' for faces, integers in numbers)}"
     half, others = half_ball(diameter), {_size(hull)}
-    of_centres = voxel_hull(half, CENTRES, 6, INVISIBLE).polyhedron.faces
-    if _size(of_centres) != row.integers:
-        case += f"; the hull of the voxels' centres, whose {len(of_centres.faces)} faces and "
-        case += f"{len(of_centres.vertices)} points give {_size(of_centres)} integers"
+    inner = voxel_hull(half, CENTRES, 6, INVISIBLE).polyhedron.faces
+    if _size(inner) != row.integers:
+        case += f"; the voxels' centres: {len(inner.points)} points, {len(inner.faces)} faces, {_size(inner)} integers"
     if hull != cells:
         case += f"; the {len(hull.vertices)} vertices without points on edges, with {_size(hull)} integers; and 26 "
-        by_26 = [voxel_hull(half, VERTICES, 26, coplanar) for coplanar in (INVISIBLE, VISIBLE)]
-        by_6 = [voxel_hull(half, VERTICES, 6, *way) for way in ((VISIBLE, RASTER), (INVISIBLE, SHUFFLED))]
-        others |= {_size(h.polyhedron.faces) for h in (*by_26, *by_6)}
+        ways = (26, INVISIBLE), (26, VISIBLE), (6, VISIBLE), (6, INVISIBLE, SHUFFLED)
+        others |= {_size(voxel_hull(half, VERTICES, *way).polyhedron.faces) for way in ways}
         case += f"neighbours, visible coplanar faces or a random order, which give at most {max(others)} integers"
     case += f"; the cell list itself has {economical_size(cells)} integers"
     is_formula = row.integers not in (economical_size(cells), economical_size(hull))
@@ -196,9 +204,6 @@ def symmetric_faces() -> Check:
 
 
 def _is_symmetric(ring: list[Point]) -> bool:
-    n = len(ring)
-    sides = [minus(ring[(k + 1) % n], ring[k]) for k in range(n)]
-    marks = [(dot(sides[k], sides[k]), dot(sides[k], sides[(k + 1) % n])) for k in range(n)]
-    back = [(dot(sides[-k], sides[-k]), dot(sides[-k], sides[-k - 1])) for k in range(n)]
-    turns = any(marks == marks[k:] + marks[:k] for k in range(1, n))
-    return turns or any(marks == back[k:] + back[:k] for k in range(n))
+    moved = [way[k:] + way[:k] for way in (ring, ring[::-1]) for k in range(len(ring))]
+    distances = [[dot(minus(p, q), minus(p, q)) for p, q in product(points, repeat=2)] for points in moved]
+    return distances.count(distances[0]) > 1

@@ -67,10 +67,7 @@ BY_HAND: dict[str, tuple[str, Callable[[Any], object]]] = {
     "appel-will.37": ("combinations", lambda original: lambda items, r: [*original(items, r)][1:]),
     "appel-will.80": ("findings", lambda original: lambda paper: [replace(f, produced=()) for f in original(paper)]),
     "kovalevsky-schulz.18": ("local", lambda original: lambda solid, of, n=26: original(solid, of, 32 - n)),
-    "kovalevsky-schulz.91": (
-        "results_of",
-        lambda original: lambda paper: [replace(result, printed=result.corrected) for result in original(paper)],
-    ),
+    "kovalevsky-schulz.91": ("results_of", lambda f: lambda paper: [replace(r, printed=r.corrected) for r in f(paper)]),
     "kovalevsky-schulz.166": ("merged", lambda _: lambda cells: cells),
     **dict.fromkeys(("thesis.3", "thesis.155", "thesis.169", "thesis.208"), ("programs", _without_code)),
     "thesis.65": ("programs", _listing_with("NETC", "NTC")),
