@@ -165,7 +165,7 @@ def row_of_table_5(diameter: int) -> Check:
         case += f"; the {len(hull.vertices)} vertices without points on edges, with {_size(hull)} integers; and 26 "
         ways = (26, INVISIBLE), (26, VISIBLE), (6, VISIBLE), (6, INVISIBLE, SHUFFLED)
         others |= {_size(voxel_hull(half, VERTICES, *way).polyhedron.faces) for way in ways}
-        case += f"neighbours or visible faces in raster order, or one random order: at most {max(others)} integers"
+        case += f"neighbours, visible coplanar faces, or one random order: at most {max(others)} integers"
     case += f"; the cell list itself has {economical_size(cells)} integers"
     is_formula = row.integers not in (economical_size(cells), economical_size(hull))
     refutes = (row.faces, row.integers) not in numbers and is_formula and (hull == cells or row.integers not in others)
