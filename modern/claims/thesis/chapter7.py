@@ -224,10 +224,10 @@ def orientation_by_c(cases: int = CASES) -> Check:
     runs = (construction(sampled.points, programs.program) for sampled in flat_and_spatial_sets(cases))
     checks = [sign < 0 for run in runs for sign in run.signs]
     message = f"programs 1 to 3 choose the signs of {len(checks)} equations, and all are then negative at C, also "
-    message += "those that program 3 eliminates immediately afterwards"
+    message += "those that program 3 eliminates in the same step"
     fault = plane_through_c()
     check = searched(BOTH, 2 * cases, checks, message)
-    return check.unless(not fault.holds, f"a plane through C that is eliminated later: {fault.message}")
+    return check.unless(not fault.holds, f"a plane through C that is eliminated in the same step: {fault.message}")
 
 
 @claim("thesis.160", part="values")
