@@ -205,5 +205,6 @@ def symmetric_faces() -> Check:
 
 def _is_symmetric(ring: list[Point]) -> bool:
     moved = [way[k:] + way[:k] for way in (ring, ring[::-1]) for k in range(len(ring))]
-    distances = [[dot(minus(p, q), minus(p, q)) for p, q in product(points, repeat=2)] for points in moved]
+    # The distances to two neighbouring corners determine a convex polygon.
+    distances = [[dot(minus(p, q), minus(p, q)) for p, q in product(points[:2], points)] for points in moved]
     return distances.count(distances[0]) > 1
