@@ -37,7 +37,7 @@ class Trap(Exception):
 
 
 class Undecided(Exception):
-    """Raised if an arithmetic cannot represent a value or determine a sign.  ``str`` is the explanation."""
+    """Raised if an arithmetic cannot represent a value or determine a sign.  ``str`` of the exception explains why."""
 
 
 class Numbers(ABC):

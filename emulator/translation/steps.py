@@ -148,7 +148,7 @@ class Item:
 
 @dataclass(frozen=True, slots=True)
 class Simple:
-    """A step without operands: the end of a list, PAUSE with its number, or STOP, which also stands for END."""
+    """A step that uses no variables: the end of a list, PAUSE with its number, or STOP, which also stands for END."""
 
     kind: Literal["end of list", "PAUSE", "STOP"]
     number: int = 0

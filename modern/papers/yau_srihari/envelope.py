@@ -293,7 +293,7 @@ def _leaves(face: Face, printed: Printed) -> dict[Place, Leaf]:
 
 
 def _rounded(numerator: int, denominator: int, printed: Printed) -> int:
-    """Return a height rounded up to an integer, or truncated, as the paper prints, if ``printed.truncation`` is set."""
+    """Return a height rounded up to an integer, or truncated, as the paper says, if ``printed.truncation`` is set."""
     if printed.truncation and numerator > 0:
         return numerator // denominator
     return -(-numerator // denominator)
