@@ -49,8 +49,8 @@ LATTICE_SETS: dict[int, Generator[tuple[Point, ...]]] = {
 }
 
 
-@claim("thesis.80", "thesis.223", dimension=2, full=400)
-@claim("thesis.102", "thesis.256", dimension=3, full=400)
+@claim("thesis.80", "thesis.221", "thesis.223", dimension=2, full=400)
+@claim("thesis.102", "thesis.229", "thesis.256", dimension=3, full=400)
 def end_of_the_procedure(dimension: int, cases: int = 2) -> Check:
     outcomes, removed = [], [0, 0, 0]
     for points in (*LATTICE_SETS[dimension].cases(cases), _POINT_ON_A_SIDE if dimension == 2 else _USED_POINTS):
@@ -62,9 +62,9 @@ def end_of_the_procedure(dimension: int, cases: int = 2) -> Check:
         removed[0] += len(remaining)
         removed[1] += len(used) - len(hull.vertices)
         removed[2] += len(hull.history[-1].equations) - len(hull.faces)
-    remain, added, duplicate = removed
-    message = f"in {cases} drawn sets and a fixed one, the points neither added nor eliminated ({remain}) are on the "
-    message += f"boundary; removed: added points that are no vertices ({added}), duplicate equations ({duplicate})"
+    remain, added, repeats = removed
+    message = f"in {cases} drawn sets and a fixed one, all vertices were added; points neither added nor eliminated "
+    message += f"({remain}) are on the boundary; removed: other added points ({added}), duplicate equations ({repeats})"
     return searched(LATTICE_SETS[dimension], cases, [*outcomes, *removed], message)
 
 
