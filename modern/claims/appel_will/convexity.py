@@ -220,8 +220,7 @@ def edge_by_star_test(cases: int = 1) -> Check:
 
 @claim("yau-srihari.12", full=200)
 def edge_by_image(cases: int = 1) -> Check:
-    points = [(0, 0, 0), (2, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4)]
-    pair = (0, 2)
+    points, pair = [(0, 0, 0), (2, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4)], (0, 2)
     # A third point on the line has the image of the pair, so that this image is in the hull of the other images.
     is_rejected = len(project(points, pair, range(len(points))).line) > 2
     case = f"{points[1]}, which has the image of the edge from {points[0]} to {points[2]} of a tetrahedron"
