@@ -119,14 +119,14 @@ def _turned_lines(sampled: SampledSet) -> set[frozenset[int]]:
     lines_found: set[frozenset[int]] = set()
     first = p = min(sampled.points)
     while not lines_found or p != first:
-        on = _on(sampled.points, _turned(sampled.points, p, _above(sampled, p)))
+        on = _on(sampled.points, _turned(sampled.points, p, above(sampled, p)))
         lines_found.add(on)
         # Continue at the far end of the side, as in gift wrapping.
         p = max((sampled.points[k] for k in on), key=lambda q: dot(minus(q, p), minus(q, p)))
     return lines_found
 
 
-def _above(sampled: SampledSet, p: Point) -> Point:
+def above(sampled: SampledSet, p: Point) -> Point:
     """Return a point outside the plane of a flat set, perpendicularly above p."""
     assert sampled.judge.plane is not None
     return plus(p, lowest(sampled.judge.plane[:3]))
@@ -140,7 +140,7 @@ def planes_from_points(dimension: int, cases: int = CASES) -> Check:
         supporting = set()
         for some in combinations(sampled.points, dimension):
             # A line of a flat set is the intersection of this set with a perpendicular plane.
-            plane = plane_through(*some, *([_above(sampled, some[0])] if dimension == 2 else []))
+            plane = plane_through(*some, *([above(sampled, some[0])] if dimension == 2 else []))
             values = [plane_value(plane, point) for point in sampled.points]
             if any(plane[:3]) and (max(values) <= 0 or min(values) >= 0):
                 supporting.add(_on(sampled.points, plane))
