@@ -28,6 +28,8 @@ from modern.claims.thesis.chapter3_equations import first_two_points
 from modern.claims.thesis.chapter3_stages import stage_property
 from modern.claims.thesis.chapter4_examples import EXTREMES_IN_A_PLANE
 from modern.claims.thesis.chapter7 import construction
+from modern.comparison.difference import disagreement
+from modern.comparison.outcome import from_cards, from_judge
 from modern.edition import programs
 from modern.geometry.vectors import six_volumes
 from modern.thesis.cards import read_hull
@@ -35,7 +37,7 @@ from modern.thesis.cards import read_hull
 # All four points have the largest or smallest value of a coordinate, but the six extreme points are only three of them.
 _TIED: tuple[Point, ...] = ((1, 1, 1), (0, 1, 1), (1, 0, 1), (1, 0, 0))
 # Rules of the text for each stage of the construction, as named in ``chapter3_stages``.
-_RULES_OF_STAGES = ("struck_inside", "accepted", "farthest_outside", "replaced_line", "renumbering")
+_RULES_OF_STAGES = ("equations", "struck_inside", "accepted", "farthest_outside", "replaced_line", "renumbering")
 
 
 @claim("thesis.267", full=100)
@@ -47,12 +49,26 @@ def text_against_listing(cases: int = CASES) -> Check:
     # Other sets meet a fault of a program, which must be corrected (thesis.1).
     sets = [s for s in flat_and_spatial_sets(cases) if not convex_hull(s.points, "truncating").corrected]
     agree = [_punches_same_hull(sampled) for sampled in sets]
+    alone = [_finds_alone(sampled.points[:3]) for sampled in flat_and_spatial_sets(cases)]
     message = f"{sum(agree)} of {len(agree)} runs that meet no fault of the programs punch the hull that the port "
     message += f"finds by {len(rules)} rules of the text; {len(same_result)} steps that the text describes differently "
-    message += "lead to the same hull"
-    check = searched(BOTH, 2 * cases, [*agree, *(step.holds for step in (*rules, *same_result))], message)
-    case = f"two other steps, which lose the hull or a line; and by {steps.orders_of_program_3()}"
+    message += (
+        f"lead to the same hull, and so does program 1 alone for {sum(alone)} of {len(alone)} sets of three points"
+    )
+    outcomes = [*agree, *alone, *(step.holds for step in (*rules, *same_result))]
+    check = searched(BOTH, 2 * cases, outcomes, message)
+    case = (
+        f"two other steps, which lose the hull or a line; by {steps.orders_of_program_3()}; and by three points, for "
+    )
+    case += "which program 1 makes no hull H_1"
     return check.unless(not any(step.holds for step in losing), case)
+
+
+def _finds_alone(points: tuple[Point, ...]) -> bool:
+    """Return True if program 1 finds the exact hull of the points without program 2 or 3."""
+    run, given = construction(points, programs.program).run, [tuple(map(Fraction, point)) for point in points]
+    difference = disagreement(from_cards("run", run, given), from_judge(exact_hull(points), given), given)
+    return len(run.steps) == 1 and difference.agrees
 
 
 def _punches_same_hull(sampled: SampledSet) -> bool:
@@ -163,13 +179,17 @@ def first_equation_tested(cases: int = CASES) -> Check:
 
 @claim("thesis.286", full=100)
 def order_of_elimination(cases: int = CASES) -> Check:
-    in_order, hulls = [], 0
+    in_order, hulls, untested = [], 0, 0
     for sampled in flat_and_spatial_sets(cases):
         steps = "".join(step for step, _ in construction(sampled.points, programs.program).steps)
         # The last hull is not tested if no point remains, and a run can end with an error after a new point.
         in_order.append(re.fullmatch("(EC+G)*(EC*)?", steps))
         hulls += steps.count("E")
-    message = f"in {len(in_order)} runs, the inside points of {hulls} hulls are eliminated before the hull is tested"
+        untested += steps[-1:] == "E"
+    message = f"in {len(in_order)} runs with {hulls} hulls, the inside points of each hull are eliminated before it is "
+    message += (
+        f"tested; at the end of {untested} of the runs no points but vertices remain, and the last hull is not tested"
+    )
     return searched(BOTH, 2 * cases, [*in_order, hulls > len(in_order)], message)
 
 
