@@ -75,7 +75,7 @@ FEW: Generator[tuple[Point, ...]] = Generator(
 )
 
 
-@claim("thesis.32", full=2_000)
+@claim("thesis.1", "thesis.32", full=2_000)
 def few_points(cases: int = 24) -> Check:
     def is_right(points: tuple[Point, ...]) -> bool:
         hull, judge = convex_hull(points), exact_hull(points)

@@ -85,11 +85,13 @@ def message_after_wrong_hull(cases: int = 1) -> Check:
     message = f"in exact arithmetic, {sum(right)} of {len(right)} results with this line agree with the exact hull"
     punched, vertices = vertices_of("silent.deck")
     renumbered = run_hull(deck_with(_THREE_BEFORE_A_VERTEX), programs.program, options)
-    hull = read_hull(renumbered.final.result.punched)
+    hull, seven = read_hull(renumbered.final.result.punched), points_on(renumbered.steps[0].deck)
+    is_right = disagreement(from_cards("run", renumbered, seven), from_judge(exact_hull(seven), seven), seven).agrees
     announced = all(map(_is_announced, (run_of("silent.deck"), renumbered)))
     case = f"eight digits: after {len(punched)} of {len(vertices)} vertices of silent.deck, program 3 punches this line"
-    case += f"; and by program 2 as listed, which punches it after the wrong vertices {hull.satisfied[0][0]} of a line"
-    wrong = announced and punched != vertices and _on_equations(hull)[0] != _listed(hull)[0]
+    case += "; and by program 2 as listed, which punches it after the right points and lines, but the wrong vertices "
+    case += f"{hull.satisfied[0][0]} of a line"
+    wrong = announced and is_right and punched != vertices and _on_equations(hull)[0] != _listed(hull)[0]
     if cases > CASES:
         # The run of these 28 points is too long for the quick search.
         full = run_hull(deck_of("table.deck"), programs.program, replace(options, limit=200_000, bounds="core"))
