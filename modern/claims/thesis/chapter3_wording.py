@@ -28,14 +28,10 @@ from modern.claims.thesis.chapter3_equations import first_two_points
 from modern.claims.thesis.chapter3_stages import stage_property
 from modern.claims.thesis.chapter4_examples import EXTREMES_IN_A_PLANE
 from modern.claims.thesis.chapter7 import construction
-from modern.comparison.difference import disagreement
-from modern.comparison.outcome import from_cards, from_judge
 from modern.edition import programs
 from modern.geometry.vectors import six_volumes
 from modern.thesis.cards import read_hull
 
-# All four points have the largest or smallest value of a coordinate, but the six extreme points are only three of them.
-_TIED: tuple[Point, ...] = ((1, 1, 1), (0, 1, 1), (1, 0, 1), (1, 0, 0))
 # Rules of the text for each stage of the construction, as named in ``chapter3_stages``.
 _RULES_OF_STAGES = ("equations", "struck_inside", "accepted", "farthest_outside", "replaced_line", "renumbering")
 
@@ -49,26 +45,14 @@ def text_against_listing(cases: int = CASES) -> Check:
     # Other sets meet a fault of a program, which must be corrected (thesis.1).
     sets = [s for s in flat_and_spatial_sets(cases) if not convex_hull(s.points, "truncating").corrected]
     agree = [_punches_same_hull(sampled) for sampled in sets]
-    alone = [_finds_alone(sampled.points[:3]) for sampled in flat_and_spatial_sets(cases)]
+    alone = [len(construction(s.points[:3], programs.program).run.steps) == 1 for s in flat_and_spatial_sets(cases)]
     message = f"{sum(agree)} of {len(agree)} runs that meet no fault of the programs punch the hull that the port "
     message += f"finds by {len(rules)} rules of the text; {len(same_result)} steps that the text describes differently "
-    message += (
-        f"lead to the same hull, and so does program 1 alone for {sum(alone)} of {len(alone)} sets of three points"
-    )
-    outcomes = [*agree, *alone, *(step.holds for step in (*rules, *same_result))]
-    check = searched(BOTH, 2 * cases, outcomes, message)
-    case = (
-        f"two other steps, which lose the hull or a line; by {steps.orders_of_program_3()}; and by three points, for "
-    )
-    case += "which program 1 makes no hull H_1"
-    return check.unless(not any(step.holds for step in losing), case)
-
-
-def _finds_alone(points: tuple[Point, ...]) -> bool:
-    """Return True if program 1 finds the exact hull of the points without program 2 or 3."""
-    run, given = construction(points, programs.program).run, [tuple(map(Fraction, point)) for point in points]
-    difference = disagreement(from_cards("run", run, given), from_judge(exact_hull(points), given), given)
-    return len(run.steps) == 1 and difference.agrees
+    message += "lead to the same hull"
+    check = searched(BOTH, 2 * cases, [*agree, *(step.holds for step in (*rules, *same_result))], message)
+    case = "two other steps, which lose the hull or a line; by three points, of which program 1 alone finds the hull; "
+    case += f"and by {steps.orders_of_program_3()}"
+    return check.unless(all(alone) and not any(step.holds for step in losing), case)
 
 
 def _punches_same_hull(sampled: SampledSet) -> bool:
@@ -150,15 +134,11 @@ def program3_against_program2() -> Check:
 
 @claim("thesis.269")
 def consecutive_hulls() -> Check:
-    checks = []
-    sets = flat_and_spatial_sets(CASES)
-    for sampled in sets:
-        sizes = [len(stage.vertices) for stage in sampled.stages()]
-        checks.append(all(a < b for a, b in pairwise(sizes)) and sampled.hull.history[0].number == 1)
+    numbers = [[stage.number for stage in sampled.hull.history] for sampled in flat_and_spatial_sets(CASES)]
+    checks = [of_set == [*range(1, len(of_set) + 1)] for of_set in numbers]
     message = f"in {sum(checks)} of {len(checks)} sets H_2 is the first hull that has a predecessor"
     # As printed, j + 1 may be 1, and then H_0 is the hull before.
-    numbers = {stage.number for sampled in sets for stage in sampled.hull.history}
-    return slip(0 in numbers, all(checks), "2 in place of 1", message)
+    return slip(any(0 in of_set for of_set in numbers), all(checks), "2 in place of 1", message)
 
 
 @claim("thesis.219", "thesis.265", full=100)
@@ -186,10 +166,8 @@ def order_of_elimination(cases: int = CASES) -> Check:
         in_order.append(re.fullmatch("(EC+G)*(EC*)?", steps))
         hulls += steps.count("E")
         untested += steps[-1:] == "E"
-    message = f"in {len(in_order)} runs with {hulls} hulls, the inside points of each hull are eliminated before it is "
-    message += (
-        f"tested; at the end of {untested} of the runs no points but vertices remain, and the last hull is not tested"
-    )
+    message = f"in {len(in_order)} runs, inside points are eliminated before each test of a hull; not tested: "
+    message += f"{untested} of {hulls} hulls, at which no points but vertices remain"
     return searched(BOTH, 2 * cases, [*in_order, hulls > len(in_order)], message)
 
 
@@ -203,7 +181,7 @@ def first_hull_against_extremes(cases: int = CASES) -> Check:
         fewer.append(first[1] <= six_extremes[1] or not six_extremes[1])
         if {sampled.points[k] for k in sampled.hull.history[0].added} <= {*_extreme_points(sampled.points)}:
             within.append(six_extremes[0] - first[0])
-    flat = [_volumes_and_planes(points) for points in (*EXTREMES_IN_A_PLANE, _TIED)]
+    flat = [_volumes_and_planes(p) for p in (*EXTREMES_IN_A_PLANE, ((1, 1, 1), (0, 1, 1), (1, 0, 1), (1, 0, 0)))]
     first, six_extremes = _volumes_and_planes(counterexample_points("first_hull.csv"))
     passed = [volume >= 0 for volume in within] + [any(within), *fewer]
     larger = all(own[0] > of_six[0] == 0 for own, of_six in flat) and first[0] > six_extremes[0] > 0
@@ -216,14 +194,10 @@ def first_hull_against_extremes(cases: int = CASES) -> Check:
 
 
 def _volumes_and_planes(points: Sequence[Point], apex: Sequence[Point] = ()) -> tuple[tuple[int, int], tuple[int, int]]:
-    """Return six times the volume and the number of planes of H_1, then of the hull of the six extreme points.
-
-    The point ``apex``, if there is one, is added to both hulls.
-    """
+    """Return six times the volume and the number of planes of H_1, then of the six points' hull, each with the apex."""
     first = [points[k] for k in convex_hull(points, history=True).history[0].added]
     measures = []
-    for some in (first, _extreme_points(points)):
-        body = [*some, *apex]
+    for body in ([*first, *apex], [*_extreme_points(points), *apex]):
         judge = exact_hull(body)
         faces = [facet.polygon for facet in judge.facets] if judge.dimension == 3 else []
         measures.append((six_volumes(body, faces), len(faces)))

@@ -89,8 +89,7 @@ def message_after_wrong_hull(cases: int = 1) -> Check:
     is_right = disagreement(from_cards("run", renumbered, seven), from_judge(exact_hull(seven), seven), seven).agrees
     announced = all(map(_is_announced, (run_of("silent.deck"), renumbered)))
     case = f"eight digits: after {len(punched)} of {len(vertices)} vertices of silent.deck, program 3 punches this line"
-    case += "; and by program 2 as listed, which punches it after the right points and lines, but the wrong vertices "
-    case += f"{hull.satisfied[0][0]} of a line"
+    case += f"; and by program 2 as listed, with the wrong vertices {hull.satisfied[0][0]} for one of the right lines"
     wrong = announced and is_right and punched != vertices and _on_equations(hull)[0] != _listed(hull)[0]
     if cases > CASES:
         # The run of these 28 points is too long for the quick search.
