@@ -84,12 +84,53 @@ def overlap_by_neighbours() -> Proof:
     return Proof.of(
         "a segment on the line of a side overlaps the side if and only if the column of each adjacent side has a 1 in "
         "at least one of the two rows of the segment's ends",
-        "Let o, p, q and r be successive corners of a contour, none of them straight, and let x = p + t (q - p) be an "
+        "Let o, p, q and r be successive corners of a contour, p and q not straight, and let x = p + t (q - p) be an "
         "end of the segment. The values of formula (1) at x for the sides o p and q r are t times the value at q, and "
         "1 - t times that at p, which are positive. So the column of o p has a 1 if t > 0, and that of q r if t < 1. A "
         "segment on p q overlaps the side if and only if t > 0 at one of its ends and t < 1 at one of its ends.",
         Step("the value for o p is t times that at q", {}, zero(bracket(o, p, x) - t * bracket(o, p, q))),
         Step("the value for q r is 1 - t times that at p", {}, zero(bracket(q, r, x) - (1 - t) * bracket(q, r, p))),
+    )
+
+
+@proves(*(f"nakamae-nishita.{row}" for row in (23, 24, 25, 26, 27)))
+@proves("nakamae-nishita.64", conclusion="a segment that crosses an inner edge is inside the contour of the edge there")
+def table_properties() -> Proof:
+    at_p, at_q, m, n = algebra.variables("f_p f_q m n")
+    signs = {"p": algebra.not_negative(at_p), "q": positive(at_q), "m": positive(m), "n": positive(n)}
+    return Proof.of(
+        "properties 1 to 4 are true for the table PL, and for the table LP with the roles of the contours exchanged",
+        "Let f be formula (1) for a side of V. f is linear, not negative in V, and positive at inner points of V. 1: "
+        "If f is not positive at the vertices of V', it is not positive in V', so that V and V' have no common inner "
+        "points. 4: Let no f be negative at p, and let q be an inner point of V. Then every f is positive at all "
+        "points (m p + n q) / (m + n) between p and q. So the segment from q to p does not leave V before p. 2: By "
+        "property 4, V encloses all vertices of V', and so V'. 3: If f is negative at no vertex of V', no segment of "
+        "V' has its ends on opposite sides of the side of V, so that no d of this side is -4. LP is the table PL of "
+        "V' and V, with rows and columns exchanged. An inner edge of V runs along no side of V, because the images of "
+        "its two front faces are on both sides of it. So every f is positive between its ends, and a segment that "
+        "crosses the edge is inside V there.",
+        *algebra.combination_satisfies(),
+        Step("f > 0 between p and q", signs, positive(m * at_p + n * at_q), (term("m p"), term("n q"))),
+    )
+
+
+@proves("nakamae-nishita.41")
+@proves("nakamae-nishita.42", conclusion="a segment that not only touches a contour enters it, leaves it, or does both")
+def two_intersections() -> Proof:
+    at_x, at_z, m, n = algebra.variables("f_x f_z m n")
+    signs = {"x": positive(at_x), "z": algebra.not_negative(at_z), "m": positive(m), "n": positive(n)}
+    on_y = {**signs, "y": zero(m * at_x + n * at_z)}
+    return Proof.of(
+        "a segment that does not run along a side of a convex contour has at most two points in common with it, and a "
+        "segment that runs along a side has d = -4 for no side",
+        "Let x, y and z be three points of the segment on the contour, with y = (m x + n z) / (m + n) between x and "
+        "z, and let f be formula (1) for a side with y. f is linear, 0 at y, and not negative at x and z. So f is 0 "
+        "at both, because it would otherwise be positive at y, and the segment runs along this side. Then no corner "
+        "is on the outer side of its line, so that d is -4 for no side. If x and z are inside, every f is positive at "
+        "both and so at y, which is inside too. So the segment enters at most once, and does not enter after it "
+        "leaves. A line through a square enters and leaves, and each half of it does one of the two.",
+        Step("f > 0 at x is impossible", on_y, algebra.IMPOSSIBLE, (term("m x"), term("n z"), term("y", -1))),
+        Step("f > 0 at y", signs, positive(m * at_x + n * at_z), (term("m x"), term("n z"))),
     )
 
 

@@ -4,8 +4,7 @@ An entry of a table tells on which side of a line of one contour a vertex of the
 """
 
 import math
-from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from functools import cache
 from itertools import combinations, product
 from random import Random
@@ -24,7 +23,6 @@ from modern.papers.nakamae_nishita.crossings import CLEAR, clipped
 from modern.papers.nakamae_nishita.solids import height, plane_through
 
 Place = tuple[int, int]
-Rows = Sequence[Sequence[int]]
 
 SQUARE: tuple[Place, ...] = ((0, 0), (0, 4), (4, 4), (4, 0))
 WITHIN: tuple[Place, ...] = ((1, 1), (1, 3), (3, 3), (3, 1))
@@ -178,46 +176,6 @@ def crosses(a: Place, b: Place, c: Place, d: Place) -> bool:
     return side(a, b, c) * side(a, b, d) == -1 == side(c, d, a) * side(c, d, b)
 
 
-@claim("nakamae-nishita.23", number="1", full=25)
-@claim("nakamae-nishita.24", number="2", full=25)
-@claim("nakamae-nishita.25", number="3", full=25)
-@claim("nakamae-nishita.26", number="4", full=25)
-@claim("nakamae-nishita.27", number="LP", full=25)
-def table_properties(number: str, cases: int = CASES) -> Check:
-    checks, premises, touching = [], 0, 0
-    for v, w in pairs(cases):
-        of_both = tables_of(v, w)
-        met = [[of_both.crossing_number(i, j) for j in range(len(w))] for i in range(len(v))]
-        of_pl, of_lp = (v, w, [*zip(*of_both.pl, strict=True)], met), (w, v, of_both.lp, [*zip(*met, strict=True)])
-        # ``LP`` is about all four properties of the table LP.
-        for property_number in "1234" if number == "LP" else number:
-            found, touches = _property(property_number, *(of_lp if number == "LP" else of_pl))
-            # The converse is true for properties 2 and 4.
-            checks += [right == premise or (right and property_number not in "24") for premise, right in found]
-            premises += sum(premise for premise, _ in found)
-            touching += touches
-    unit = {"3": "segments without -1", "4": "vertices", "LP": "cases"}.get(number, "pairs of contours")
-    message = f"the premise is satisfied for {premises} of {len(checks)} {unit}; in all of these, the conclusion holds"
-    message += f"; {touching} segments without -1 touch the other contour (d in (3) is -2 or -1)" if touching else ""
-    return searched(POLYGONS, 2 * cases, checks, message)
-
-
-def _property(
-    number: str, v: tuple[Place, ...], w: tuple[Place, ...], of_lines: Rows, met: Rows
-) -> tuple[list[tuple[bool, bool]], int]:
-    """Return the premise and the conclusion of a property for each case, and the number of lines that only touch w."""
-    # For each line of v, ``of_lines`` has the signs of the vertices of w, and ``met`` has d for each line of w.
-    if number == "1":
-        return [(any(1 not in line for line in of_lines), not overlap(v, w))], 0
-    if number == "2":
-        return [(not any(-1 in line for line in of_lines), all(inside(p, v) for p in w))], 0
-    if number == "4":
-        return [(-1 not in at, inside(p, v)) for at, p in zip(zip(*of_lines, strict=True), w, strict=True)], 0
-    clear = [i for i, line in enumerate(of_lines) if -1 not in line]
-    crossed = [any(crosses(*side_of_v, *side_of_w) for side_of_w in sides(w)) for side_of_v in sides(v)]
-    return [(True, not crossed[i]) for i in clear], sum(any(met[i]) for i in clear)
-
-
 @claim("nakamae-nishita.66")
 def overlap_by_tables() -> Check:
     v, ends = ((3, 5), (6, 0), (3, 0), (0, 0)), (2, 4)
@@ -228,41 +186,3 @@ def overlap_by_tables() -> Check:
     case = f"{v} with {contours[0]} or {contours[1]}: the tables are the same, but only segment 1 of the second "
     case += "overlaps segment 1 of the first polygon"
     return overlap_by_neighbours().check().unless(one == other and overlaps == [False, True], case)
-
-
-@claim("nakamae-nishita.41", full=25)
-def intersection_counts(cases: int = CASES) -> Check:
-    counts, along, most = Counter[int](), 0, 0
-    for v in polygons(cases):
-        for a, b in combinations([(x, y) for x in (-3, 0, 2, 4) for y in (-2, 0, 3, 4)], 2):
-            crossed = sum(crosses(a, b, p, q) for p, q in sides(v))
-            # The corners on the segment, and the ends of the segment on the contour: two if it runs along a side.
-            touched = {p for p in v if between(a, b, p)} | {e for e in (a, b) for p, q in sides(v) if between(p, q, e)}
-            along += len(touched) == 2 and any(side(p, q, a) == side(p, q, b) == 0 for p, q in sides(v))
-            by_3 = [(side(p, q, a) - side(p, q, b)) * (side(a, b, p) - side(a, b, q)) for p, q in sides(v)]
-            counts[crossed + len(touched)] += 1
-            most = max(most, by_3.count(-2))
-    message = f"{counts.total()} segments cross or touch a contour in 0, 1 or 2 points, if only the ends of a common "
-    message += f"part ({along} segments) count; d is -2 for up to {most} sides of a contour, two at each corner"
-    return searched(POLYGONS, 2 * cases, [{*counts} == {0, 1, 2}, along, most > 2], message)
-
-
-@cache
-def inner_edges(w: tuple[Place, ...]) -> list[tuple[Place, Place]]:
-    lines, grid = lines_of(w), product(range(-2, 10), repeat=2)
-    ends = [*w, *((x, y) for x, y in grid if all(value(line, (x, y, 1)) > 0 for line in lines))]
-    return [(p, q) for p, q in combinations(ends, 2) if all(value(x, (p[0] + q[0], p[1] + q[1], 2)) for x in lines)]
-
-
-@claim("nakamae-nishita.64", full=25)
-def segments_within(cases: int = CASES) -> Check:
-    checks, partly_inside = [], 0
-    for v, w in pairs(cases):
-        for a, b in sides(v):
-            if crossings := sum(crosses(a, b, p, q) for p, q in inner_edges(w)):
-                values_at_w = values(lines_of(w), [(*a, 0, 1), (*b, 0, 1)])
-                checks += [values_at_w is not None and clipped(values_at_w, 0, 1) != CLEAR] * crossings
-                partly_inside += crossings * (not (inside(a, w) and inside(b, w)))
-    message = f"in {len(checks)} crossings of a side of V with a line between corners or inner points of V', a part of "
-    message += f"the side is inside V'; in {partly_inside} of them, another part of the side is not"
-    return searched(POLYGONS, 2 * cases, checks, message)

@@ -3,7 +3,7 @@
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
-from itertools import combinations, groupby, pairwise, permutations
+from itertools import permutations
 
 from modern.claims import algebra
 from modern.claims.evidence import Check, claim, exhibited, proved, refuted, searched, slip
@@ -24,7 +24,7 @@ from modern.papers.nakamae_nishita.scenes import parse
 
 
 @claim("nakamae-nishita.16", full=600)
-def hidden_contour_edges(cases: int = 2) -> Check:
+def hidden_contour_edges(cases: int = 1) -> Check:
     drawing, behind = _two_boxes((1, 3, -1)), edges_wholly_behind()
     both = drawing.relations[0].by == BY_CROSSING and _hidden(drawing, INNER) and _hidden(drawing, CONTOUR)
     case = f"hidden contour edges of the farther box, and by a box partly behind a wall: {behind.message}"
@@ -32,7 +32,7 @@ def hidden_contour_edges(cases: int = 2) -> Check:
 
 
 @claim("nakamae-nishita.49", full=600)
-def order_of_invisibility(cases: int = 2) -> Check:
+def order_of_invisibility(cases: int = 1) -> Check:
     behind, corners = edges_wholly_behind(), indices(1).evidence.violation
     case = f"a box partly behind a wall: {behind.message}; and by {corners}"
     return pieces_against_rays(cases).unless(not behind.holds and corners, case)
@@ -118,23 +118,6 @@ def _touching_boxes() -> str:
 @claim("nakamae-nishita.36")
 def nearer_polyhedron() -> Check:
     return one_order().check().unless(_touching_boxes(), _touching_boxes())
-
-
-@claim("nakamae-nishita.42", full=100)
-def three_conditions(cases: int = 3) -> Check:
-    courses, touching = [], 0
-    for v in (SQUARE, *POLYGONS.cases(cases)):
-        for a, b in combinations(_ENDS, 2):
-            ends = [(value(line, (*a, 1)), value(line, (*b, 1))) for line in lines_of(v)]
-            # Between its intersections with the lines of the contour, a segment is wholly inside or outside.
-            places = sorted({Fraction(0), Fraction(1), *(Fraction(p, p - q) for p, q in ends if p * q < 0)})
-            parts = [all(2 * p + (s + t) * (q - p) > 0 for p, q in ends) for s, t in pairwise(places)]
-            course = tuple(is_inside for is_inside, _ in groupby(parts))
-            touching += course == (False,) and any(between(a, b, p) and p not in (a, b) for p in v)
-            courses += [course] if len(course) > 1 else []
-    outcomes = [{*courses} == {(False, True), (True, False), (False, True, False)}]
-    message = f"{len(courses)} segments enter a contour, leave it, or do both; {touching} others only touch a contour "
-    return searched(_CONTOURS, cases, outcomes, f"{message}at a corner or along a side")
 
 
 @claim("nakamae-nishita.48")
