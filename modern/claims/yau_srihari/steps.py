@@ -69,7 +69,11 @@ def queued_edges_reversed(cases: int = 3) -> Check:
 def envelope_algorithm(of_ceiling: bool, cases: int = 2) -> Check:
     needed = [name for name in NAMES if not of_ceiling or name != "truncation"]
     wrong = all(_is_wrong(name, of_ceiling) == (name in needed) for name in NAMES)
-    return envelopes_against_judge(cases).unless(wrong, f"{len(needed)} printed steps, each giving a wrong envelope")
+    # From the upright starting face of two columns, no other face is found.
+    row = octree_hull(array_of([(0, 0, 0), (1, 0, 0)]))
+    found = Search((1, 0, 0), (0, 0, 0), (0, -1, 0), Printed()).run((row.upper if of_ceiling else row.lower).tree)
+    case = f"{len(needed)} printed steps, each giving a wrong envelope; and two voxels in a row, which have no face"
+    return envelopes_against_judge(cases).unless(wrong and not found, case)
 
 
 def _is_wrong(name: str, of_ceiling: bool) -> bool:
@@ -154,14 +158,15 @@ class _Counted(Search):
 
 @claim("yau-srihari.129", full=100)
 def angle_counts(cases: int = 3) -> Check:
-    balls = [ball(diameter, VERTEX).array for diameter in (4, 8)]
+    balls = [ball(diameter, VERTEX).array for diameter in (2, 4, 8)]
     counts = [_angles(octree_hull(array)) for array in (*balls, *map(array_of, SOLIDS.cases(cases)))]
-    (whole_of_4, _, _, with_bounds_of_4), (whole, preprocessed, by_search, with_bounds), *_ = counts
+    of_2, (whole_of_4, _, _, with_bounds_of_4), (whole, preprocessed, by_search, with_bounds), *_ = counts
     outcomes = [by_search < preprocessed < whole, with_bounds < whole, *(c[2] <= c[1] <= c[0] for c in counts)]
     message = f"a ball of diameter 8 needs {whole} angles of points, {preprocessed} after preprocessing, {by_search} "
     check = searched(SOLIDS, cases, outcomes, f"{message}with the search too, {with_bounds} if its bounds are counted")
-    case = f"the bounds: with them, a ball of diameter 4 needs {with_bounds_of_4} angles instead of {whole_of_4}"
-    return check.unless(with_bounds_of_4 > whole_of_4, case)
+    case = f"a ball of diameter 2, which needs {of_2[2]} angles of points in any way; and by a ball of diameter 4, "
+    case += f"which needs {with_bounds_of_4} angles with the bounds instead of {whole_of_4}"
+    return check.unless(of_2[0] == of_2[2] and with_bounds_of_4 > whole_of_4, case)
 
 
 def _angles(hull: OctreeHull) -> tuple[int, int, int, int]:
