@@ -235,7 +235,7 @@ def judge(statement: Statement, results: Results) -> Judged:
             raise StatementError(f"{row.id}: the field 'results' names {name}, which is not a published result")
         graded.append((verdict, "quoted" if verdict == UNTESTABLE else "exhibited"))
     if row.results:
-        messages.append(f"published results: {', '.join(row.results)}")
+        messages.append(f"compared with the published results {', '.join(row.results)}")
     if row.code:
         resolve(row)
         graded.append((USED, "used"))

@@ -108,7 +108,7 @@ def points_that_see_no_face(cases: int = 1) -> Check:
         inside = point in points or len(points) not in exact_hull([*points, point]).vertices
         outcomes.append(unseen == inside)
         held += inside
-    message = f"of {len(outcomes)} points with coordinates 1 and 4, exactly the {held} in the hull see no face"
+    message = f"of {len(outcomes)} points with coordinates 1 or 4, exactly those in the hull ({held}) see no face"
     return searched(SETS[3], cases, [*outcomes, held], message)
 
 
@@ -188,8 +188,8 @@ def tests_of_all_voxels() -> Check:
     solid = ball(12)
     corners, voxels = (sorted(map(tuple, p.tolist())) for p in (local_corners(solid, CENTRES), solid.coordinates()))
     tests, pairs, more_tests = _inserted(corners)[1], 13 * len(voxels), _inserted(voxels)[1]
-    message = f"{pairs} tests of pairs and {tests} of faces if the hull of a ball of {len(voxels)} voxels is found "
-    message += f"from its {len(corners)} local corners, but {more_tests} tests of faces if it is found from all voxels"
+    message = f"the hull of a ball of {len(voxels)} voxels takes {pairs} tests of pairs and {tests} of faces if found "
+    message += f"from the {len(corners)} local corners, but {more_tests} tests of faces if found from all voxels"
     return exhibited(tests + pairs < more_tests / 4, message)
 
 
@@ -287,5 +287,5 @@ def reconstruction(of: Of, cases: int = 2) -> Check:
         filled: list[list[int]] = Volume(digital_hull(volume).filled, volume.origin).coordinates().tolist()
         return _restored(solid, of) == filled == _restored(filled, of)
 
-    message = "the cell lists of the hulls of a solid and of the filled solid restore the solid with its hull filled"
+    message = "from the cell list of a solid's hull, the program restores exactly the voxels in the hull"
     return search(SOLIDS, restores, cases, message)

@@ -154,7 +154,7 @@ def row_of_table_5(diameter: int) -> Check:
     centres = (0, 1, 0), (0, 0, 0), (0, 0, 1), (1, 1, 0)
     moved = [voxel_hull(_half_ball(diameter, *o), VERTICES, 6, INVISIBLE).polyhedron.faces for o in centres]
     beside, *numbers = [(len(moved_cells.faces), _size(moved_cells)) for moved_cells in moved]
-    message += ", as for a centre between two voxels" if beside == (row.faces, row.integers) else ""
+    message += ", and so does a half-ball centred between two voxels" if beside == (row.faces, row.integers) else ""
     case = "half-balls centred on a voxel, between two layers, and between four voxels of a layer, which have "
     case += f"{', '.join(f'{faces} faces and {integers} integers' for faces, integers in numbers)}"
     half, others = half_ball(diameter), {_size(hull)}

@@ -63,8 +63,13 @@ def end_of_the_procedure(dimension: int, cases: int = 2) -> Check:
         removed[1] += len(used) - len(hull.vertices)
         removed[2] += len(hull.history[-1].equations) - len(hull.faces)
     remain, added, repeats = removed
-    message = f"in {cases} drawn sets and a fixed one, all vertices were added; points neither added nor eliminated "
-    message += f"({remain}) are on the boundary; removed: other added points ({added}), duplicate equations ({repeats})"
+    message = (
+        f"in {cases} drawn sets and a fixed one, the procedure adds all vertices; points that it neither adds nor "
+    )
+    message += (
+        f"eliminates ({remain}) are on the boundary; at the end, it removes the added points that are no vertices "
+    )
+    message += f"({added}), and duplicate equations ({repeats})"
     return searched(LATTICE_SETS[dimension], cases, [*outcomes, *removed], message)
 
 

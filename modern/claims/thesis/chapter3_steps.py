@@ -72,8 +72,8 @@ def classification_by_signs(cases: int = CASES) -> Check:
         for k, point in enumerate(sampled.points):
             largest = max(plane_value(facet.plane, point) for facet in sampled.judge.facets)
             checks.append(largest <= 0 and (largest == 0) == (k not in sampled.judge.inside))
-    message = f"at {len(checks)} points no equation is positive, and some are 0 exactly if the point is not inside; "
-    message += "the midpoint of a side is a boundary point and no vertex"
+    message = f"at {len(checks)} points of sets, no equation of the hull is positive, and one or more are 0 exactly if "
+    message += "the point is not inside the hull; the midpoint of a side is a boundary point and no vertex"
     return searched(BOTH, 2 * cases, [*checks, some_boundary], message)
 
 
@@ -126,8 +126,8 @@ def fourth_point_by_largest() -> Check:
     values = [plane_value(plane_as_printed(*points[:3]), point) for point in points]
     text, listing = convex_hull(points, text=True, on_refusal="return"), convex_hull(points)
     wrong = max(values) == 0 and not text.determined and listing.determined
-    message = f"the values at the points are {', '.join(map(str, values))}; points in the plane have the largest, but "
-    return refuted(wrong, f"{message}the listing finds the hull")
+    message = f"the plane's equation has the values {', '.join(map(str, values))} at the points, so that points in the "
+    return refuted(wrong, f"{message}plane have the largest value; the listing finds the hull")
 
 
 @claim("thesis.225", full=300)
@@ -148,7 +148,7 @@ def new_planes(cases: int = CASES) -> Check:
         made = [frozenset(edge) | {after.vertices[-1]} for edge, count in edges.items() if count == 1]
         checks.append(Counter(map(frozenset, after.defining)) == Counter([*remaining, *made]))
     message = "hulls have the planes of the rule: the new point and the sides of each replaced plane give three, and "
-    return all_hold(SETS[3], cases, checks, f"{message}two new ones with the same points in one order are eliminated")
+    return all_hold(SETS[3], cases, checks, f"{message}two that name the same points in the same order are eliminated")
 
 
 @claim("thesis.97", full=300)
@@ -192,7 +192,7 @@ def planes_i_and_m() -> Check:
 @claim("thesis.98", full=300)
 def planes_of_same_points(cases: int = CASES) -> Check:
     check = new_planes(cases)
-    return replace(check, message=f"{check.message}; that is not so in {orders_of_program_3(cases)}")
+    return replace(check, message=f"{check.message}; it would miss {orders_of_program_3(cases)}")
 
 
 def orders_of_program_3(cases: int = CASES) -> str:
@@ -201,7 +201,8 @@ def orders_of_program_3(cases: int = CASES) -> str:
         # In program 3, the new point takes the place of the point of the replaced plane that is not on the edge.
         first, second = (tuple(k if k in edge else None for k in before.defining[plane]) for plane in (i, m))
         pairs.append(first == second)
-    return f"the orders of program 3, which differ for {pairs.count(False)} of {len(pairs)} pairs of equal planes"
+    differ = f"{pairs.count(False)} of {len(pairs)}"
+    return f"{differ} pairs of equal planes, whose points program 3 names in different orders"
 
 
 # A fourth point is necessary to follow the text (thesis.87).

@@ -199,15 +199,15 @@ def _programs(theorem: Theorem, load: Load) -> Check:
     judge = from_judge(exact_hull(points), points)
     outcome = from_cards("listing", run_hull(deck, load, Options(limit=200_000)), points)
     agrees = outcome.determined and disagreement(outcome, judge, points).agrees
-    description = "programs run on the printed points" if is_exact else "programs run on the truncated points"
+    description = "the printed points" if is_exact else "the truncated points"
     missing = f", without {', '.join(theorem.lost)}" if theorem.lost else ""
     sizes = [f"{len(hull.vertices)} vertices, {len(hull.equations)} planes" for hull in (outcome, judge)]
-    verdict = f"{sizes[0]}, {'like' if agrees else 'unlike'} the exact hull"
+    verdict = f"the programs find {sizes[0]}, {'like' if agrees else 'unlike'} the exact hull"
     if not outcome.determined:
-        verdict = f"the listing ends with {outcome.status}; the exact hull has {sizes[1]}"
+        verdict = f"the programs end with {outcome.status}; the exact hull has {sizes[1]}"
     # If the cards truncate coordinates, the listing must reject the points.
     passed = agrees if is_exact else outcome.status == NOT_ACCEPTABLE
-    return exhibited(passed, f"{description}{missing}: {verdict}")
+    return exhibited(passed, f"for {description}{missing}, {verdict}")
 
 
 @claim("thesis.245")

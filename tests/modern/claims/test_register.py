@@ -54,7 +54,7 @@ def test_worst_verdict_of_check_and_results_counts(first: Verdict, second: Verdi
     results = {"first": first, "second": second}
     judgement = judge(row, lambda _, name: results[name])
     assert judgement.computed == worst
-    assert judgement.message.endswith("; published results: first, second")
+    assert judgement.message.endswith("; compared with the published results first, second")
     failing_claim = replace(BY_ID["thesis.22"], results=("first",))
     assert judge(failing_claim, lambda *_: HOLDS).computed in (FAILS, *register.SLIPS)
 
