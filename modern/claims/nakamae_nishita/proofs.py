@@ -23,8 +23,8 @@ def front_face() -> Proof:
         "clockwise. The corners a, b, c, ... of a face run clockwise seen from outside, so that the normal (b - a) x "
         "(c - a) points inward. The eye sees the outer side if the product of this normal with the way from the eye to "
         "a is positive. All corners are in front of the eye, so their depths are positive. In a parallel projection "
-        "along z, the way from the eye is z itself. All pairs of successive edges of a convex face turn in the "
-        "same sense.",
+        "along z, the way from the eye is z itself. All pairs of successive edges of a convex face that are not in "
+        "one line turn in the same sense.",
         *(
             Step(
                 f"seen from {side}, the corners turn {sense} in the projection",
@@ -164,13 +164,13 @@ def one_order() -> Proof:
     parallel = {"slope": positive(-slope), "v": in_v, "w": in_w}
     return Proof.of(
         "of two polyhedra, the same one is nearer on all their lines of sight, except where they touch",
-        "A plane separates two convex polyhedra V and V' that have no common inner points. Let f be a linear function "
-        "that is 0 on this plane, not positive on V, and not negative on V'. If the contours overlap, the plane does "
-        "not contain the eye, because it would then separate the contours too. Let f be e > 0 at the eye, and e + s m "
-        "and e + t m at points of V and V' on one line of sight, at the distances s and t. Then m < 0 and s >= t, and "
-        "s = t only if the two points are one. So V' is nearer on all lines of sight; if e < 0, V is. In a parallel "
-        "projection, m is the same for all lines of sight and not 0, and s and t are distances from a plane across "
-        "these lines.",
+        "A plane separates two convex polyhedra V and V' that have no common inner points (those of a plate are the "
+        "inner points of its polygon). Let f be a linear function that is 0 on this plane, not positive on V, and not "
+        "negative on V'. If the contours overlap, the plane does not contain the eye, because it would then separate "
+        "the contours too. Let f be e > 0 at the eye, and e + s m and e + t m at points of V and V' on one line of "
+        "sight, at the distances s and t. Then m < 0 and s >= t, and s = t only if the two points are one. So V' is "
+        "nearer on all lines of sight; if e < 0, V is. In a parallel projection, m is the same for all lines of sight "
+        "and not 0, and s and t are distances from a plane across these lines.",
         Step("m < 0 if e > 0", central, positive(-slope), (term("eye"), term("v")), ("s",)),
         Step("s >= t if m < 0", parallel, algebra.not_negative(s - t), (term("v"), term("w")), ("slope",)),
     )

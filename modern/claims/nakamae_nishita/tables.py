@@ -137,7 +137,7 @@ def formula_1() -> Check:
     return identity(difference, (2, 2, 2, 2, 1, 1), message, argument)
 
 
-@claim("nakamae-nishita.37", conclusion="formula (5) is positive if the vertex is nearer, negative if the face is")
+@claim("nakamae-nishita.37", conclusion="in right-handed coordinates, formula (5) is positive if the vertex is nearer")
 @claim("nakamae-nishita.60", conclusion="formula (5) has the same sign at all vertices of V', so any of them decides")
 def formula_5(conclusion: str) -> Check:
     x, p, q, r = (algebra.point(name, 3) for name in "xpqr")
@@ -151,7 +151,8 @@ def formula_5(conclusion: str) -> Check:
     order = one_order()
     argument = (
         "The value of formula (5) for a vertex x and corners p, q and r of a face is (x - p) n with n = (r - p) x (q - "
-        "p), which points outward because the corners run clockwise as seen from outside. So the value is positive in "
+        "p), which points outward because the corners run clockwise as seen from outside, and is not 0 because they "
+        "form a convex angle (section 3.1). The coordinates are right-handed. So the value is positive in "
         "front of the face, like the eye, and negative behind it: x is nearer or farther than the point of the face "
         f"with the same image. The order of these two points is that of V' and V. {order.argument}"
     )
