@@ -29,7 +29,7 @@ TYPEWRITER_SECONDS = 1 / 10
 
 @dataclass(frozen=True, slots=True)
 class Cost:
-    """The milliseconds that an operation takes, its row in the time table, and True if the time is an estimate."""
+    """The milliseconds that an operation takes, its row in a :class:`Timing`, and True if the time is an estimate."""
 
     milliseconds: float
     cause: str
@@ -101,7 +101,11 @@ class Time:
 
 
 def modelled(seconds: float, cause: str = "") -> Time:
-    """Return a processor time with the model's systematic error for the row ``cause`` of the time table."""
+    """Return a processor time between the limits of the model's systematic error.
+
+    The limits for the conversion of numbers differ from those for other causes, which are names of rows of a
+    :class:`Timing`.
+    """
     low, high = CONVERSION_MODEL if cause == CONVERSION else MODEL
     return Time(seconds, low * seconds, high * seconds)
 
@@ -113,7 +117,7 @@ def nominal(seconds: float) -> Time:
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """A row of the time table: cause, count, time, and whether the time includes an estimate."""
+    """A row of a :class:`Timing`: what takes the time, how often, the time, and if it includes an estimate."""
 
     cause: str
     count: int
@@ -123,7 +127,7 @@ class Row:
 
 @dataclass(frozen=True, slots=True)
 class Timing:
-    """The time table of a run: rows of the processor and of the devices, counts of operations and of statements."""
+    """The times of a run: rows of the processor and of the devices, counts of operations and of statements."""
 
     processor: tuple[Row, ...]
     devices: tuple[Row, ...]

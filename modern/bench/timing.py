@@ -83,8 +83,8 @@ class Curve:
     def slope(self, least: int = 0) -> float | None:
         """Return the slope of the curve on logarithmic axes, for sizes of at least ``least``, by least squares.
 
-        The slope is the exponent of the power of the size with which the seconds grow.  Return None for fewer than two
-        points.
+        The seconds grow like a power of the size, and the slope is the exponent of this power.  Return None for fewer
+        than two points.
         """
         logs = [(math.log(count), math.log(seconds)) for count, seconds in self.points if count >= least]
         if len(logs) < 2:

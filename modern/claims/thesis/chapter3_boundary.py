@@ -63,13 +63,9 @@ def end_of_the_procedure(dimension: int, cases: int = 2) -> Check:
         removed[1] += len(used) - len(hull.vertices)
         removed[2] += len(hull.history[-1].equations) - len(hull.faces)
     remain, added, repeats = removed
-    message = (
-        f"in {cases} drawn sets and a fixed one, the procedure adds all vertices; points that it neither adds nor "
-    )
-    message += (
-        f"eliminates ({remain}) are on the boundary; at the end, it removes the added points that are no vertices "
-    )
-    message += f"({added}), and duplicate equations ({repeats})"
+    message = f"in {cases} drawn sets and a fixed one, the procedure adds all vertices; points that it neither adds "
+    message += f"nor eliminates ({remain}) are on the boundary; at the end, it removes added points that are no "
+    message += f"vertices ({added}), and duplicate equations ({repeats})"
     return searched(LATTICE_SETS[dimension], cases, [*outcomes, *removed], message)
 
 

@@ -48,8 +48,9 @@ _SURFACES = f'font-family="{svg.FONT}" font-size="15" fill="#999" text-anchor="m
 def map_svg(surfaces: Sequence[Surface], edges: Sequence[Pair], title: str = "", width: int | None = None) -> str:
     """Return the planar map of a polyhedron or a polygon, with its points, lines and faces numbered, as SVG text.
 
-    ``edges`` is the convex edge list, which gives the numbers of the lines. If there are more than ``MOST_LINES``
-    lines, none is numbered. ``width`` is in pixels. The default is 640, or 1000 for more than ``CROWD`` points.
+    ``edges`` is the convex edge list. The label of a line is its position in this list. If there are more than
+    ``MOST_LINES`` lines, none has a label. ``width`` is in pixels. The default is 640, or 1000 for more than ``CROWD``
+    points.
 
     Raise ExportError for a map without surfaces or with more than ``MOST`` points, and for a width out of range.
     """

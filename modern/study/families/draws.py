@@ -85,7 +85,7 @@ def whole_range(value: Count, name: str) -> tuple[int, int]:
 
 
 def size_of(digits: int) -> int:
-    """Return the largest integer of the given number of digits.  Raise FamilyError for more digits than a card holds."""
+    """Return the largest integer of the given number of digits.  Raise FamilyError if a card has no room for it."""
     if not isinstance(digits, int) or not 1 <= digits <= DIGITS:
         raise FamilyError(f"digits: expected 1 to {DIGITS}, as many as a card holds, found {digits}")
     return int(10**digits - 1)
