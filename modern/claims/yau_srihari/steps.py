@@ -10,7 +10,7 @@ from modern.claims.hulls import exact_hull, octree_hull
 from modern.claims.sampled_sets import Point, counterexample_points
 from modern.claims.yau_srihari.envelopes import SOLIDS, array_of, envelopes_against_judge, hull_of, judge_agrees, moved
 from modern.claims.yau_srihari.proofs import smallest_solid
-from modern.digital.solids import VERTEX, ball
+from modern.digital.solids import VERTEX, Voxels, ball
 from modern.geometry.mesh import sides
 from modern.papers.yau_srihari import OctreeHull, Printed
 from modern.papers.yau_srihari.convexity import is_digitally_convex, is_midpoint_convex, is_simple
@@ -21,21 +21,23 @@ from modern.papers.yau_srihari.quadtree import Leaf, Place, Quadtree, heights, l
 from modern.papers.yau_srihari.search import Bounds, Search
 
 
+def path_and_larger() -> list[Voxels]:
+    """Return six voxels that form a path, alone and with each of two other voxels."""
+    return [array_of([*counterexample_points("yau_path.csv"), *p]) for p in ([], [(1, 0, 1)], [(1, 1, 1)])]
+
+
 @claim("yau-srihari.1")
 def minimum_not_unique() -> Check:
-    outcomes = []
+    path, *larger = path_and_larger()
     # By definition 3.2.2, and by Kim and Rosenfeld's test (3.2.3)
-    cases = ((is_midpoint_convex, (2, 1, 0), (1, 1, 0)), (is_digitally_convex, (1, 1, 0), (0, 1, 0)))
-    for is_convex, end, other in cases:
-        both: list[Point] = [(0, 0, 0), end]
-        outcomes += [not is_convex(array_of(both)), *(is_convex(array_of([*both, p])) for p in ((1, 0, 0), other))]
-    message = "two voxels fail definition 3.2.2 (or the test of 3.2.3), but satisfy it if either of two others is added"
-    return exhibited(all(outcomes), message)
+    outcomes = [not of(path) and all(map(of, larger)) for of in (is_midpoint_convex, is_digitally_convex)]
+    message = "a path of six voxels fails definition 3.2.2 and the test of 3.2.3, but satisfies both if either of "
+    return exhibited(all(outcomes), f"{message}{len(larger)} other voxels is added")
 
 
 @claim("yau-srihari.35")
 def smallest_convex_solid() -> Check:
-    path, *larger = (array_of([*counterexample_points("yau_path.csv"), *p]) for p in ([], [(1, 0, 1)], [(1, 1, 1)]))
+    path, *larger = path_and_larger()
     is_own_hull = (octree_hull(path).filled == path).all() and not is_digitally_convex(path)
     case = f"a path of six voxels, which becomes convex if one of {len(larger)} other voxels is added"
     return smallest_solid().check().unless(is_own_hull and all(map(is_digitally_convex, larger)), case)
