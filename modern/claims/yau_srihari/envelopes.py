@@ -5,7 +5,7 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from itertools import combinations, product
-from math import comb
+from math import ceil, comb, floor
 from random import Random
 
 import numpy as np
@@ -252,13 +252,20 @@ def another_vertex() -> Check:
 
 @claim("yau-srihari.90")
 def epigraph_at_inner_nodes() -> Check:
-    outcomes, too_full = [], []
-    for tops in product(range(3), repeat=4):
-        tree = written(no_columns(2), {divmod(k, 2): Leaf(top) for k, top in enumerate(tops)})
-        full = voxels_of(epigraph := graph_side(tree, above=True), (2, 2, 2))
-        outcomes.append(all(full[at] == (at[2] >= tree.values[at[:2]]) for at in product(range(2), repeat=3)))
-        if tree.low == 0 and count(epigraph) < 8:
-            too_full.append(f"the root for the heights {tops}, which would have 8 voxels instead of {count(epigraph)}")
-    message = "a voxel is full exactly if its z is not below the height of its column"
-    check = exhausted("heights from 0 to 2 of 2 by 2 columns", outcomes, message)
-    return check.unless(too_full, too_full[0])
+    rounded_up, truncated = list[bool](), list[bool]()
+    for first, last in product(range(4), repeat=2):
+        # Of three columns in a row, only the outer ones have points, so that the envelope between them is straight.
+        envelope = [Fraction(first), Fraction(first + last, 2), Fraction(last)]
+        for values, outcomes in ((map(ceil, envelope), rounded_up), (map(floor, envelope), truncated)):
+            tree = written(no_columns(4), {(x, 0): Leaf(value) for x, value in enumerate(values)})
+            full = voxels_of(graph_side(tree, above=True), (3, 1, 4))
+            outcomes.append(all(full[x, 0, z] == (z >= envelope[x]) for x, z in product(range(3), range(4))))
+    tree = written(no_columns(2), {divmod(k, 2): Leaf(k // 3) for k in range(4)})
+    voxels = count(graph_side(tree, above=True))
+    case = (
+        f"the root for the heights 0, 0, 0, 1, which would have 8 voxels instead of {voxels}, and by truncated heights "
+    )
+    case += f"of {truncated.count(False)} of {len(truncated)} envelopes"
+    message = "a voxel is full exactly if its z is not below the envelope"
+    check = exhausted("envelopes over three columns in a row, heights from 0 to 3 at the ends", rounded_up, message)
+    return check.unless(tree.low == 0 and voxels < 8 and not all(truncated), case)
