@@ -51,8 +51,6 @@ _EXAMPLES = {1: (3, 2), 2: (9, 1), 3: (1, 0), 4: (8, 2), 5: (15, 3), 6: (10, 3)}
 _SPACE = ((1, 2, 3), (2, 1, 5), (4, 4, 1), (3, 9, 2), (7, 1, 1))
 # Four points that are not coplanar, but are in eight digits.
 _NEARLY_FLAT = ((99999999, 0, 0), (0, 99999999, 0), (0, 0, 99999999), (33333333, 33333333, 33333334))
-# Four points of a plane that are not coplanar in eight digits, although the value of a plane at C is 0.
-_TAKEN_AS_SPATIAL = ((1, 0, 9), (2432, 0, 9), (0, 3, 9), (0, 7061, 9))
 # Seven points for which program 2 removes three points just before a vertex.
 _THREE_BEFORE_A_VERTEX = ((0, -1, 0), (1, 1, 0), (-1, 1, 0), (1, -1, 0), (-1, -1, 0), (-1, 0, 0), (1, 0, 0))
 
@@ -60,16 +58,15 @@ _THREE_BEFORE_A_VERTEX = ((0, -1, 0), (1, 1, 0), (-1, 1, 0), (1, -1, 0), (-1, -1
 @claim("thesis.280", full=300)
 def error_in_program(cases: int = CASES) -> Check:
     names = ("throughc.deck", "zeroplane.deck")
-    runs = [*map(run_of, names), _first_run("E+36", 4), run_hull(deck_with(_TAKEN_AS_SPATIAL), programs.program)]
+    in_a_plane = ((1, 0, 9), (2432, 0, 9), (0, 3, 9), (0, 7061, 9))
+    runs = [*map(run_of, names), _first_run("E+36", 4), run_hull(deck_with(in_a_plane), programs.program)]
     ended = [typed(run).endswith("ERROR IN PROGRAM") for run in runs]
-    sets = [*(points_on(deck_of(name)) for name in names), _SPACE[:4], _TAKEN_AS_SPATIAL]
-    hulls = [convex_hull(points) for points in sets]
+    hulls = [convex_hull(points_on(run.steps[0].deck)) for run in runs]
     message = "in exact arithmetic, the corrected procedure never ends with the message; program 3 types it for "
     message += f"{names[0]}, whose hull needs the correction {', '.join(hulls[0].corrected)}"
     outcomes = [procedure_against_judge((2, 3), cases).holds, ended[0] and hulls[0].corrected]
     right = all(ended) and all(hull.determined for hull in hulls) and not any(hull.corrected for hull in hulls[1:])
-    case = f"{names[1]} and by four points of a plane, which need too many digits, and by four points of about 1E36; "
-    case += "none of these sets needs a correction"
+    case = f"{names[1]}, four points of a plane, and four points of about 1E36, none of which needs a correction"
     return searched(BOTH, 2 * cases, outcomes, message).unless(right, case)
 
 
