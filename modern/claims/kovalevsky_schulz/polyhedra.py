@@ -93,8 +93,7 @@ def growing_polyhedra(cases: int = CASES) -> Check:
         outcomes += [plane_value(plane, p) <= 0 for part in parts for plane in polyhedron(part).planes() for p in part]
         for (before, cells), new in zip(pairwise(map(polyhedron, parts)), points[len(parts[0]) :], strict=True):
             outcomes += [plane_value(plane, p) <= 0 for plane in cells.planes() for p in before.points]
-            was_inside = all(plane_value(plane, new) <= 0 for plane in before.planes())
-            outcomes.append(was_inside or new in cells.points)
+            outcomes.append(new in cells.points or all(plane_value(plane, new) <= 0 for plane in before.planes()))
     message = "each polyhedron is the intersection of its half-spaces and contains all earlier points and polyhedra; "
     return searched(SETS[3], cases, outcomes, f"{message}each new point becomes a vertex or is already inside")
 

@@ -264,9 +264,9 @@ def divided_hull(cases: int = 2) -> Check:
         checks.append(without == expected)
         ghosts += len(with_ghosts - expected)
     message = (
-        f"drawings of {cases} hulls, each divided by a plane, have {ghosts} lines that those of whole hulls have not; "
+        f"drawings of {cases} hulls, each divided by a plane, have {ghosts} lines more than those of whole hulls; "
     )
-    message += "without the lines between coplanar faces of the parts, they are the drawings of the whole hulls"
+    message += "without the lines between coplanar faces of the parts, the drawings are equal"
     return searched(CUTS, cases, [*checks, ghosts], message)
 
 

@@ -196,8 +196,7 @@ def truncated_roots() -> Check:
 def vertices_of(name: str) -> tuple[set[int], set[int]]:
     """Return the vertices that the listing punches for a counterexample, and its exact vertices, as sets of indices."""
     points = points_on(deck_of(name))
-    outcome = from_cards("listing", run_of(name), points)
-    return set(outcome.vertices), set(exact_hull(points).vertices)
+    return set(from_cards("listing", run_of(name), points).vertices), set(exact_hull(points).vertices)
 
 
 @claim("thesis.159")

@@ -124,10 +124,8 @@ def outside_several_planes() -> Iterator[bool]:
 
 @claim("thesis.107")
 def theorem_4_1() -> Check:
-    argument = (
-        "If the extreme points of one coordinate coincide, all points are coplanar. For each other way in which "
-        "extreme points can coincide, a set that is not coplanar has exactly these extreme points in one plane"
-    )
+    argument = "If the extreme points of one coordinate coincide, all points are coplanar. For each other way in which "
+    argument += "extreme points can coincide, a set that is not coplanar has exactly these extreme points in one plane"
     return proved(argument, coplanar_extremes(), "the six points can be coplanar, whichever of them coincide (87 ways)")
 
 

@@ -76,8 +76,7 @@ def judge_agrees(voxels: tuple[Point, ...]) -> bool:
         for faces in (envelope.faces, [step.face for step in envelope.steps if step.face]):
             if {frozenset((x, y, sign * z) for x, y, z in face.vertices) for face in faces} != expected:
                 return False
-    shadow = tuple(dict.fromkeys((x, y, 0) for x, y, _ in points))
-    return _fills(points) and _fills(shadow)
+    return _fills(points) and _fills(tuple(dict.fromkeys((x, y, 0) for x, y, _ in points)))
 
 
 def _fills(voxels: tuple[Point, ...]) -> bool:
@@ -262,10 +261,8 @@ def epigraph_at_inner_nodes() -> Check:
             outcomes.append(all(full[x, 0, z] == (z >= envelope[x]) for x, z in product(range(3), range(4))))
     tree = written(no_columns(2), {divmod(k, 2): Leaf(k // 3) for k in range(4)})
     voxels = count(graph_side(tree, above=True))
-    case = (
-        f"the root for the heights 0, 0, 0, 1, which would have 8 voxels instead of {voxels}, and by truncated heights "
-    )
-    case += f"of {truncated.count(False)} of {len(truncated)} envelopes"
+    case = f"the root for the heights 0, 0, 0, 1, which would have 8 voxels instead of {voxels}, and by the truncated "
+    case += f"heights of {truncated.count(False)} of {len(truncated)} envelopes"
     message = "a voxel is full exactly if its z is not below the envelope"
     check = exhausted("envelopes over three columns in a row, heights from 0 to 3 at the ends", rounded_up, message)
     return check.unless(tree.low == 0 and voxels < 8 and not all(truncated), case)
