@@ -263,9 +263,7 @@ def divided_hull(cases: int = 2) -> Check:
         with_ghosts, without = (_ends(draw(polyhedra(parts, thing), parallel(EYE))) for thing in ("", "hull"))
         checks.append(without == expected)
         ghosts += len(with_ghosts - expected)
-    message = (
-        f"drawings of {cases} hulls, each divided by a plane, have {ghosts} lines more than those of whole hulls; "
-    )
+    message = f"drawings of {cases} hulls divided by planes have {ghosts} lines more than those of whole hulls; "
     message += "without the lines between coplanar faces of the parts, the drawings are equal"
     return searched(CUTS, cases, [*checks, ghosts], message)
 

@@ -164,8 +164,7 @@ def formula_5(conclusion: str) -> Check:
 
 
 def between(p: Place, q: Place, r: Place) -> bool:
-    along = (r[0] - p[0]) * (r[0] - q[0]) + (r[1] - p[1]) * (r[1] - q[1])
-    return side(p, q, r) == 0 and along <= 0
+    return side(p, q, r) == 0 and (r[0] - p[0]) * (r[0] - q[0]) + (r[1] - p[1]) * (r[1] - q[1]) <= 0
 
 
 def side(p: Place, q: Place, r: Place) -> int:
