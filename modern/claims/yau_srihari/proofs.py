@@ -121,7 +121,7 @@ def smallest_solid() -> Proof:
 
 @claim("yau-srihari.49")
 def digital_hull_by_envelopes() -> Check:
-    message = "digital points between the envelopes that pass the test are the smallest such solid that contains S"
+    message = "if the digital points between the envelopes pass the test, they are the smallest such solid around S"
     stairs = disconnected_hull()
     return smallest_solid().check(message).unless(not stairs.holds, f"voxels like stairs: {stairs.message}")
 

@@ -164,8 +164,9 @@ def angle_counts(cases: int = 3) -> Check:
     counts = [_angles(octree_hull(array)) for array in (*balls, *map(array_of, SOLIDS.cases(cases)))]
     of_2, (whole_of_4, _, _, with_bounds_of_4), (whole, preprocessed, by_search, with_bounds), *_ = counts
     outcomes = [by_search < preprocessed < whole, with_bounds < whole, *(c[2] <= c[1] <= c[0] for c in counts)]
-    message = f"a ball of diameter 8 needs {whole} angles of points, {preprocessed} after preprocessing, {by_search} "
-    check = searched(SOLIDS, cases, outcomes, f"{message}with the search too, {with_bounds} if its bounds are counted")
+    message = f"the hull of a ball of diameter 8 needs {whole} angles of points, {preprocessed} after preprocessing, "
+    message += f"{by_search} with the search too, and {with_bounds} if the search's angles for bounds are counted"
+    check = searched(SOLIDS, cases, outcomes, message)
     case = f"a ball of diameter 2, which needs {of_2[2]} angles of points in any way; and by a ball of diameter 4, "
     case += f"which needs {with_bounds_of_4} angles with the bounds instead of {whole_of_4}"
     return check.unless(of_2[0] == of_2[2] and with_bounds_of_4 > whole_of_4, case)
