@@ -138,10 +138,10 @@ def _agrees(bodies: tuple[Body, ...]) -> bool:
 
 @claim("nakamae-nishita.7", full=600)
 def pieces_against_rays(cases: int = 1, scenes: Generator[tuple[Body, ...]] = SCENES) -> Check:
-    message = "the method divides edges, and sides of figures on front faces, into pieces; no polyhedron hides any of "
-    return search(
-        scenes, _agrees, cases, f"{message}three points of a visible piece, and all of a hidden piece are hidden"
+    message = (
+        "the method divides edges, and sides of figures on front faces, into pieces; polyhedra hide none of three "
     )
+    return search(scenes, _agrees, cases, f"{message}points of a visible piece, and all three of a hidden piece")
 
 
 # Eyes in no plane of a face of a sampled hull. If the last number is 0, the eye is at infinity.
