@@ -101,10 +101,9 @@ class Time:
 
 
 def modelled(seconds: float, cause: str = "") -> Time:
-    """Return a processor time between the limits of the model's systematic error.
+    """Return a processor time with the limits that follow from the model's systematic error.
 
-    The limits for the conversion of numbers differ from those for other causes, which are names of rows of a
-    :class:`Timing`.
+    ``cause`` is the cause of a :class:`Row`. The conversion of numbers has its own limits.
     """
     low, high = CONVERSION_MODEL if cause == CONVERSION else MODEL
     return Time(seconds, low * seconds, high * seconds)

@@ -165,11 +165,12 @@ def solid_from_deficiency(cases: int = 3) -> Check:
 
 @claim("yau-srihari.30", "yau-srihari.33")
 def convex_solid_fails_test() -> Check:
-    """Check that a simple solid that fails the test of convexity is convex by definition 3.2.3.
+    """Check one simple solid that Kim and Rosenfeld's test of convexity rejects, but definition 3.2.3 calls convex.
 
-    The half-cell expansion has cells [a, a + 1] with integers a.  Let Q be the hull of cubes of side 1/4 around the
-    solid's points.  Q meets each of these cells, because a corner of a cube is inside the cell.  Q meets another cell,
-    open or closed, only if a is in the hull of the points of Q moved by -1 or 0 along each axis.
+    By this definition, the half-cell expansion is the image of a convex body.  The expansion has cells [a, a + 1] with
+    integers a.  Let Q be the hull of cubes of side 1/4 around the solid's points.  Q meets each of these cells, because
+    a corner of a cube is inside the cell.  Q meets another cell, open or closed, only if a is in the hull of the points
+    of Q moved by -1 or 0 along each axis.
     """
     solid = counterexample_points("yau_near.csv")
     cells = {(x - 1, y - 1, z - 1) for x, y, z in np.argwhere(half_cell_expansion(array_of(solid))).tolist()}

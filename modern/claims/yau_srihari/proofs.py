@@ -47,7 +47,7 @@ def hull_is_convex() -> Proof:
 @proves("yau-srihari.47", "yau-srihari.96")
 def convex_epigraph() -> Proof:
     return Proof.of(
-        "a function is convex if and only if its epigraph is convex, and concave if and only if its hypograph is",
+        "a function is convex exactly if its epigraph is convex, and concave exactly if its hypograph is convex",
         "By definition, f is convex if and only if segments between points of its graph are nowhere below it. If f "
         "is convex, a point between two points of the epigraph is on or above the combination of two points of "
         "the graph, which is on or above the graph. Conversely, take two points of the graph itself: a point between "
