@@ -40,7 +40,7 @@ def lines_of(places: tuple[Place, ...]) -> list[tuple[int, int, int]]:
 
 
 def tables_of(v: tuple[Place, ...], w: tuple[Place, ...]) -> Tables:
-    """Return the tables PL and LP by formula (2), even if contours do not overlap.  Rows belong to V' and columns to V."""
+    """Return the tables PL and LP by formula (2), even if contours are apart.  Rows belong to V' and columns to V."""
     of_v, of_w = ([[value(line, p) for p in flat(b)] for line in lines_of(a)] for a, b in ((v, w), (w, v)))
     return tables(of_v, of_w)
 
