@@ -138,15 +138,15 @@ def vertices_of_first_hull(cases: int = CASES) -> Check:
 
 @claim("thesis.89", "thesis.94", full=300)
 def new_planes(cases: int = CASES) -> Check:
-    checks = []
+    checks, named = [], dict[frozenset[int], tuple[int, ...]]()
     for _, before, after, visible in _visible(cases):
-        # Pages 32 and 33 name the new point last, so that planes name their points in the order of their numbers.
-        planes = [tuple(sorted(d, key=before.vertices.index)) for d in before.defining]
-        # The planes of an edge between two replaced planes are equal, and both are eliminated (page 33).
-        edges = Counter(edge for k in visible for edge in combinations(planes[k], 2))
-        remaining = [frozenset(d) for k, d in enumerate(planes) if k not in visible]
-        made = [frozenset(edge) | {after.vertices[-1]} for edge, count in edges.items() if count == 1]
-        checks.append(Counter(map(frozenset, after.defining)) == Counter([*remaining, *made]))
+        if len(before.vertices) == 4:
+            named = {frozenset(names): names for names in combinations(before.vertices, 3)}
+        replaced = [named.pop(frozenset(before.defining[k]), ()) for k in visible]
+        # Page 32 names MM, NN or KK of a plane in their order, and then the new point. Page 33 eliminates equal names.
+        made = Counter((*two, after.vertices[-1]) for names in replaced for two in combinations(names, 2))
+        named |= {frozenset(names): names for names, count in made.items() if count == 1}
+        checks.append({*named} == {frozenset(defining) for defining in after.defining})
     message = "hulls have the planes of the rule: the new point and the sides of each replaced plane give three, and "
     return all_hold(SETS[3], cases, checks, f"{message}two that name the same points in the same order are eliminated")
 

@@ -136,7 +136,7 @@ def cards_read_and_punched() -> Check:
     return exhibited(all({"READ", "PUNCH"} <= of_program for of_program in words), "all programs READ and PUNCH cards")
 
 
-@claim("thesis.4", "thesis.153")
+@claim("thesis.4", "thesis.33", "thesis.153")
 def program_sizes() -> Check:
     deck_size = OBJECT_PROGRAM + FUNCTION_NAMES
     sizes = [deck_size + code_positions(p) + p.storage.fields * FIELD for p in map(programs.program, THREE)]
@@ -144,7 +144,7 @@ def program_sizes() -> Check:
     return exhibited(all(SMALLER_CORE < size <= CORE for size in sizes), message)
 
 
-@claim("thesis.14")
+@claim("thesis.14", "thesis.33")
 def fifty_one_points() -> Check:
     points = points_on(deck_of("table.deck"))
     arrays = [{entry.name: entry.size for entry in programs.program(name).storage.arrays()} for name in THREE]
