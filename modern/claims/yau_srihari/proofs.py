@@ -12,10 +12,7 @@ from modern.papers.yau_srihari.search import Search
 
 
 def combination_above() -> Step:
-    """Return the step that proves: a weighted mean of points on or above a graph is on or above that of graph points.
-
-    The graph points are those directly below the given points.
-    """
+    """Return the step: a mean of points on or above a graph is on or above that of the graph points below them."""
     m, z_1, z_2, floor_1, floor_2 = variables("m z_1 z_2 floor_1 floor_2")
     points = {"first": not_negative(z_1 - floor_1), "second": not_negative(z_2 - floor_2)}
     return Step(
@@ -38,7 +35,7 @@ def hull_is_convex() -> Proof:
         "them. This is not negative, and the new weights have the sum (1 - m) + m = 1. So the segment between two "
         "combinations consists of combinations. A convex set that contains the points contains all combinations of "
         "them: if m < 1 is the weight of one point, the combination is between this point and a combination of the "
-        "others, which are fewer and have weights divided by 1 - m.",
+        "others, which are fewer and have weights divided by 1 - m. So the hull is the intersection of all such sets.",
         Step("the new weight is not negative", weights, new_weight, (term("rest w"), term("m k"))),
         Step("the sum of the weights is 1", {}, zero((1 - m) + m - 1)),
     )
@@ -132,13 +129,8 @@ def theorem_2() -> Proof:
     cotangents = dot(f, w) * turn(f, u) - dot(f, u) * turn(f, w)
     outward_p, outward_q = (f[1], -f[0]), (-u[1], u[0])
     smaller, inside = {"p": positive(dot(f, f)), "angles": not_negative(cotangents)}, not_negative(turn(w, u))
-    sides = {
-        "upright": positive(turn(f, up)),
-        "w": not_negative(turn(f, w)),
-        "u": not_negative(turn(f, u)),
-        "near": not_negative(turn(w, up)),
-        "far": positive(turn(up, u)),
-    }
+    weak = {"w": not_negative(turn(f, w)), "u": not_negative(turn(f, u)), "near": not_negative(turn(w, up))}
+    sides = {"upright": positive(turn(f, up)), "far": positive(turn(up, u)), **weak}
     coordinates = tuple(term("inside", coordinate) for coordinate in f)
     return Proof.of(
         "a plane on an edge of a face p is supporting if and only if its interior dihedral angle to p is largest",
