@@ -140,8 +140,7 @@ def vertices_of_first_hull(cases: int = CASES) -> Check:
 def new_planes(cases: int = CASES) -> Check:
     checks, named = [], dict[frozenset[int], tuple[int, ...]]()
     for _, before, after, visible in _visible(cases):
-        if len(before.vertices) == 4:
-            named = {frozenset(names): names for names in combinations(before.vertices, 3)}
+        named = {frozenset(d): d for d in combinations(before.vertices, 3)} if len(before.vertices) == 4 else named
         replaced = [named.pop(frozenset(before.defining[k]), ()) for k in visible]
         # Page 32 names MM, NN or KK of a plane in their order, and then the new point. Page 33 eliminates equal names.
         made = Counter((*two, after.vertices[-1]) for names in replaced for two in combinations(names, 2))

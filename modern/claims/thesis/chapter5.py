@@ -337,16 +337,15 @@ def sign_without_products() -> Check:
 def total_of_translation() -> Check:
     times, right = [], []
     # The points of a curve are vertices. The others are inside H_1, so that they change no equation.
-    for vertices, inside in ((7, 0), (7, 30), (9, 28)):
-        curve = [(k, k**2, k**3) for k in range(-(vertices // 2), vertices // 2 + 1)]
-        deck = deck_with([*curve, *((1, 7, 9 + k / 10) for k in range(1, inside + 1))])
+    for ks, inside in ((range(-3, 4), 0), (range(-3, 4), 30), (range(-4, 5), 28)):
+        deck = deck_with([*((k, k**2, k**3) for k in ks), *((1, 7, 9 + k / 10) for k in range(1, inside + 1))])
         last = [run_hull(deck, load, Options(core=60_000)).final for load in (programs.program, _translated)]
         times.append([measure(step.program, step.result).processor_time.seconds for step in last])
-        right += [len(read_hull(step.result.punched).vertices) == vertices for step in last]
+        right += [len(read_hull(step.result.punched).vertices) == len(ks) for step in last]
     message = (
-        "program 3 takes {0[0]:.1f} s for 7 vertices, and {0[1]:.1f} s with the translation; with 30 inside points "
+        "program 3 takes {0[0]:.1f} s for 7 vertices, {0[1]:.1f} s with the translation; with 30 more points inside, "
     )
-    message += "more, {1[0]:.1f} and {1[1]:.1f} s; with 9 vertices and 28 inside points, {2[0]:.1f} and {2[1]:.1f} s"
+    message += "{1[0]:.1f} and {1[1]:.1f} s; for 9 vertices and 28 points inside, {2[0]:.1f} and {2[1]:.1f} s"
     return exhibited(all(right) and [a > b for a, b in times] == [True, False, True], message.format(*times))
 
 
