@@ -342,10 +342,8 @@ def total_of_translation() -> Check:
         last = [run_hull(deck, load, Options(core=60_000)).final for load in (programs.program, _translated)]
         times.append([measure(step.program, step.result).processor_time.seconds for step in last])
         right += [len(read_hull(step.result.punched).vertices) == len(ks) for step in last]
-    message = (
-        "program 3 takes {0[0]:.1f} s for 7 vertices, {0[1]:.1f} s with the translation; with 30 more points inside, "
-    )
-    message += "{1[0]:.1f} and {1[1]:.1f} s; for 9 vertices and 28 points inside, {2[0]:.1f} and {2[1]:.1f} s"
+    message = "program 3 takes {0[0]:.1f} s for 7 vertices, {0[1]:.1f} s with the translation; with 30 more points "
+    message += "inside, {1[0]:.1f} and {1[1]:.1f} s; for 9 vertices and 28 points inside, {2[0]:.1f} and {2[1]:.1f} s"
     return exhibited(all(right) and [a > b for a, b in times] == [True, False, True], message.format(*times))
 
 
