@@ -111,7 +111,7 @@ def points_that_see_no_face(cases: int = 1) -> Check:
     return searched(SETS[3], cases, [*outcomes, held], message)
 
 
-@claim("kovalevsky-schulz.161", "kovalevsky-schulz.51", "yau-srihari.114", full=400)
+@claim("kovalevsky-schulz.161", "kovalevsky-schulz.51", "kovalevsky-schulz.76", "yau-srihari.114", full=400)
 def cells_removed(cases: int = CASES) -> Check:
     checks = []
     for (points, judge), new in product(hulls(cases), OUTSIDE):
@@ -126,8 +126,8 @@ def cells_removed(cases: int = CASES) -> Check:
         remaining_edges = {e for e in judge.edges() if any({*e} <= h for h in hidden)}
         checks.append({e for e in after.edges() if len(points) not in e} == remaining_edges)
     generator = replace(SETS[3], name=f"{SETS[3].name}, and two points outside unless they are in the plane of a face")
-    message = f"each of {len(checks) // 3} points outside a hull replaces the faces that it sees, with edges and "
-    return searched(generator, cases, checks, f"{message}vertices of only these, by a triangle on each boundary edge")
+    message = f"{len(checks) // 3} points outside a hull replace the visible faces, with edges and vertices of only "
+    return searched(generator, cases, checks, f"{message}these, by a triangle on each edge of exactly one of them")
 
 
 @claim("kovalevsky-schulz.52")
