@@ -195,9 +195,13 @@ def expanded(encoding: Economical) -> CellList:
     """Return the full cell list for the short encoding.
 
     Edges are numbered in the order in which the faces use them first, and have the direction of their first use. Raise
-    CellListError for an encoding that is not the surface of a convex polyhedron.
+    CellListError unless the points are distinct and not all in one plane, each edge is on two faces, V - E + F is 2,
+    and each face is plane with no point outside of its plane.
     """
     points, faces = encoding.points, encoding.faces
+    if len({*points}) < len(points):
+        repeated = next(n for n, point in enumerate(points) if point in points[:n])
+        raise CellListError(f"vertices {points.index(points[repeated]) + 1} and {repeated + 1} are the same point")
     try:
         sizes, start = _flat(faces)
     except OverflowError:
@@ -215,7 +219,7 @@ def expanded(encoding: Economical) -> CellList:
     )
     forward = start == start[first][edge_of]
     # Each edge must have as many half-edges in one direction as in the opposite direction. Euler's formula then
-    # excludes all surfaces except a sphere. Convexity is checked last.
+    # excludes separate surfaces and surfaces with handles. Convexity is checked last.
     unpaired = np.bincount(edge_of, np.where(forward, 1, -1)).astype(bool)
     if unpaired.any():
         edge = first[unpaired].min()
@@ -246,7 +250,7 @@ def _check_cycles(sizes: Numbers, start: Numbers, face: Numbers, count: int) -> 
 
 
 def _check_convex(points: Sequence[IntPoint], sizes: Numbers, vertex: Numbers, face: Numbers) -> None:
-    """Raise CellListError unless each face is plane and no vertex is outside the plane of any face."""
+    """Raise CellListError unless each face is plane, no vertex is outside any face, and some vertex is inside each."""
     _, shifted = _shifted(points, sizes)
     normals, constants = _planes(shifted, sizes, vertex)
     greatest = sum(int(abs(part).max()) * int(shifted.max()) for part in normals.T) + int(abs(constants).max())
@@ -260,6 +264,8 @@ def _check_convex(points: Sequence[IntPoint], sizes: Numbers, vertex: Numbers, f
         if values.max() > 0:
             plane, point = (int(number) + 1 for number in np.argwhere(values > 0)[0])
             raise CellListError(f"face {first + plane}: vertex {point} lies outside of its plane")
+        if not values[0].any():
+            raise CellListError("all vertices lie in one plane")
     off_plane = np.flatnonzero((normals[face] * shifted[vertex - 1]).sum(axis=1) + constants[face])
     if off_plane.size:
         raise CellListError(f"face {face[off_plane[0]] + 1}: its vertices do not lie in one plane")

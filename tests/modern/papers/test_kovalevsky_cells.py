@@ -91,6 +91,18 @@ def test_cubes_are_expanded_and_vertices_in_line_have_planes() -> None:
         planes_of([*polygon, (1, 1, 1), (2, 2, 2), (3, 3, 3)], [range(1, 6), (6, 7, 8)])
 
 
+# Two octahedra in the same place that have only the vertices 1 and 2 in common: Euler's formula holds.
+OCTAHEDRA_ON_ONE_AXIS = ks.Economical(
+    ((0, 0, 1), (0, 0, -1), *2 * ((1, 0, 0), (0, 1, 0), (-1, 0, 0), (0, -1, 0))),
+    tuple(
+        face
+        for base in (3, 7)
+        for k in range(4)
+        for face in ((1, base + k, base + (k + 1) % 4), (2, base + (k + 1) % 4, base + k))
+    ),
+)
+
+
 def faces(*cycles: tuple[int, ...]) -> ks.Economical:
     return replace(CUBE, faces=cycles)
 
@@ -119,6 +131,8 @@ def faces(*cycles: tuple[int, ...]) -> ks.Economical:
             ks.Economical(((0, 0, 0), (1, 0, 0), (2, 0, 0), (0, 1, 0)), ((1, 2, 3), (1, 4, 2), (2, 4, 3), (1, 3, 4))),
             "a face has no area",
         ),
+        (ks.Economical(((0, 0, 0), (1, 0, 0), (0, 1, 0)), ((1, 2, 3), (1, 3, 2))), "all vertices lie in one plane"),
+        (OCTAHEDRA_ON_ONE_AXIS, "vertices 3 and 7 are the same point"),
     ],
 )
 def test_encodings_of_no_convex_surface_are_rejected(encoding: ks.Economical, message: str) -> None:
