@@ -183,17 +183,16 @@ def preprocessing_saves() -> Check:
 
 @claim("appel-will.154")
 def minimum_data() -> Check:
-    solid, figure, cube = twisted(), fig_4(), exact_hull(CUBE)
+    solid, figure, box = twisted(), fig_4(), exact_hull(CUBE)
     judge = exact_hull(solid.points)
     differ = {*_surfaces_at_lines(solid)} != {*map(frozenset, judge.edges())}
     same_map = {*_surfaces_at_lines(pitted())} == {*map(frozenset, exact_hull(RAISED).edges())}
-    shared = {first & second for first, second in combinations(map(frozenset, figure.surfaces), 2)}
-    of_sets = {pair for pair in shared if len(pair) == 2} == {*_surfaces_at_lines(figure)}
+    pairs = {a & b for a, b in combinations(map(frozenset, figure.surfaces), 2) if len(a & b) == 2}
     message = f"a twisted prism and its hull have the same {len(judge.vertices)} points but different lines; a "
     message += "tetrahedron with a pit in each face and one with a pyramid on each face have the same map"
     check = exhibited(differ and same_map and len(judge.vertices) == len(solid.points), message)
     case = "a cube known to be convex, whose points are enough, and Fig. 4, whose map needs no order of the points"
-    return check.unless(of_sets and (len(cube.vertices), len(cube.facets)) == (8, 6), case)
+    return check.unless(pairs == {*_surfaces_at_lines(figure)} and (len(box.vertices), len(box.facets)) == (8, 6), case)
 
 
 @claim("appel-will.77")
@@ -221,10 +220,9 @@ def vertex_without_supporting_surface() -> Check:
     solid = pitted()
     planes = {_plane_of(solid.points, surface) for surface in solid.surfaces}
     values = [[plane_value(plane, point) for point in solid.points] for plane in planes]
-    supporting = sum(max(row) <= 0 or min(row) >= 0 for row in values)
-    distinct = len(planes) == len(solid.surfaces)
+    valid = len(planes) == len(solid.surfaces) and not any(max(row) <= 0 or min(row) >= 0 for row in values)
     message = f"the hull of an object with {len(planes)} surfaces, none in a supporting plane, is a tetrahedron"
-    return exhibited(distinct and supporting == 0 and exact_hull(solid.points).vertices == (0, 1, 2, 3), message)
+    return exhibited(valid and exact_hull(solid.points).vertices == (0, 1, 2, 3), message)
 
 
 def _plane_of(points: Sequence[Point], surface: Sequence[int]) -> Plane:
