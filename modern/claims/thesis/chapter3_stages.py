@@ -16,7 +16,6 @@ from modern.claims.sampled_sets import (
     Approximation,
     Point,
     SampledSet,
-    added_points,
     flat_and_spatial_sets,
     oriented,
     plane_through,
@@ -42,7 +41,6 @@ from modern.geometry.hull import Stage
 @claim("thesis.218", kind="renumbering", full=300)
 @claim("thesis.77", kind="largest_of_all", full=300)
 @claim("thesis.206", "thesis.228", "thesis.99", "thesis.189", "thesis.225", kind="equations", full=300)
-@claim("thesis.221", "thesis.229", kind="vertices_used", full=300)
 @claim("thesis.222", "thesis.232", kind="vertex_when_added", full=300)
 @claim("thesis.92", "thesis.266", kind="convexity", full=300)
 @claim("thesis.89", "thesis.266", kind="added_tetrahedra", full=300)
@@ -212,10 +210,6 @@ def _renumbering(sampled: SampledSet) -> Iterator[bool]:
         yield new_are_last and [{*d} for d in after.defining[:-2]] == [{*d} for d in kept_lines]
 
 
-def _vertices_used(sampled: SampledSet) -> Iterator[bool]:
-    yield {*sampled.judge.vertices} <= {*added_points(sampled.hull)}
-
-
 def _vertex_when_added(sampled: SampledSet) -> Iterator[bool]:
     for stage, record in zip(sampled.stages(), sampled.hull.history, strict=True):
         judge = exact_hull([sampled.points[k] for k in stage.vertices])
@@ -277,7 +271,6 @@ _PROPERTIES = {
     "two_new_lines": (_two_new_lines, "each step adds two lines, and no point is outside both"),
     "counts": (_counts, "NV and NE of H_1 are 3, or 4 in space; each step adds 1 to NV, and in a plane also to NE"),
     "renumbering": (_renumbering, "later lines move up by one number, and the two new lines are last"),
-    "vertices_used": (_vertices_used, "all vertices of the last hull are points that the procedure has added"),
     "vertex_when_added": (_vertex_when_added, "each added point is a vertex of the hull of the points added so far"),
     "added_triangle": (_added_bodies, "a lattice point is in H_k+1 exactly if it is in H_k or the added triangle"),
     "convexity": (_convexity, "replacing one plane gives a convex body exactly if the point is outside no other plane"),
