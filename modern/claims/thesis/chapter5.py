@@ -75,7 +75,7 @@ def message_after_wrong_hull(cases: int = 1) -> Check:
     right = []
     # Program 1 punches the line for two or three points.
     for given in (s.points[:size] for s in flat_and_spatial_sets(cases) for size in (2, 3, None)):
-        run = run_hull(deck_with(given), _corrected_program2, options)
+        run = run_hull(deck_with(given), lambda n: programs.program(n, ("corrected",) * (n == "program2")), options)
         hull, points = read_hull(run.final.result.punched), [tuple(map(Fraction, point)) for point in given]
         if _is_announced(run):
             difference = disagreement(from_cards("run", run, points), from_judge(exact_hull(given), points), points)
@@ -104,10 +104,6 @@ def message_after_wrong_hull(cases: int = 1) -> Check:
 
 def _is_announced(run: HullRun) -> bool:
     return any("CONVEX HULL HAS BEEN DETERMINED" in card for card in run.final.result.punched)
-
-
-def _corrected_program2(name: str) -> Program:
-    return programs.program(name, ("corrected",) if name == "program2" else ())
 
 
 def _on_equations(hull: CardHull) -> list[tuple[tuple[int, ...], int]]:
