@@ -187,7 +187,8 @@ class Logged(Operator):
     """An operator whose actions are logged to a file, with the events of the machine as comments.
 
     With the same program and deck, :class:`FromFile` repeats the run from the log and produces the same log.
-    ``deck_name`` is by default the session's name of the deck.  The LOAD line contains this name unless it has a blank.
+    ``deck_name`` is by default the session's name of the deck.  The LOAD line contains this name, unless there is a
+    blank in the name.
     """
 
     def __init__(self, operator: Operator, file: TextIO, deck_name: str | None = None) -> None:

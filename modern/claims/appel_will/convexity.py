@@ -71,9 +71,8 @@ def method_against_judge(cases: int = CASES, method: Method = CORRECTED) -> Chec
             values = [dot(normal, minus(point, sampled.points[ring[0]])) for point in sampled.points]
             checks.append(min(values) == 0 or max(values) == 0)
     message = f"for {cases} sets of points, the loops run around the faces of the exact hull, which are convex, and "
-    message += "use each edge twice; no plane of a loop has points on both sides; the map lists the points that "
-    message += "neighbouring lines of a loop have in common: the end LC1 of a line with a positive entry in the loop, "
-    message += "and the end LC2 of a line with a negative entry"
+    message += "use each edge twice; no plane of a loop has points on both sides; the topological map lists, for each "
+    message += "loop, the points at which its lines begin (LC1 if the entry of the line is positive, otherwise LC2)"
     return searched(SETS[3], cases, checks, message)
 
 

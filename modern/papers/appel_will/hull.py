@@ -83,7 +83,7 @@ class Assembled:
 
     @property
     def fault(self) -> str:
-        """The reason why the result is not a hull, or "". Only rules applied as printed can cause such a result."""
+        """The reason why the result is not a hull, or "". Without rules applied as printed, the result is a hull."""
         v, e, f = len(self.vertices), len(self.edges), len(self.surfaces)
         if self.table.stopped:
             return self.table.stopped
