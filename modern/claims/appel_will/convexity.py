@@ -41,7 +41,7 @@ def corrected_method(cases: int = CASES) -> Check:
 
 @claim("appel-will.107", full=300)
 def next_line(cases: int = CASES) -> Check:
-    missing = _missing_faces("prism.csv", "step9", "step3")
+    missing = _missing_faces("prism.csv", "step9")
     case = f"a prism, for which searches that begin at the head of the list miss {missing} faces"
     message = f"if step 9 excludes the lines that it added, the loops of {cases} sets run around the faces of the hull"
     return replace(method_against_judge(cases), message=message).unless(missing, case)

@@ -69,7 +69,7 @@ BY_HAND: dict[str, tuple[str, Callable[[Any], object]]] = {
     "kovalevsky-schulz.18": ("local", lambda original: lambda solid, of, n=26: original(solid, of, 32 - n)),
     "kovalevsky-schulz.91": ("results_of", lambda f: lambda paper: [replace(r, printed=r.corrected) for r in f(paper)]),
     "kovalevsky-schulz.166": ("merged", lambda _: lambda cells: cells),
-    **dict.fromkeys(("thesis.3", "thesis.155", "thesis.169", "thesis.208"), ("programs", _without_code)),
+    **dict.fromkeys(("thesis.3", "thesis.155", "thesis.169"), ("programs", _without_code)),
     "thesis.65": ("programs", _listing_with("NETC", "NTC")),
     "thesis.129": ("_c_0", lambda original: lambda *points: original(*points) + 1),
     "thesis.194": ("Machine", lambda _: lambda *arguments: None),
