@@ -113,8 +113,8 @@ def plane_duplicates_as_printed(cases: int = CASES) -> Check:
         consecutive += (False, False) in pairwise(keeps)
         checks.append(sorted(kept_planes) == sorted(_unsigned(facet.plane) for facet in exact_hull(points).facets))
         differing += kept_planes != [_unsigned(face.lowest) for face in hull.faces]
-    message = f"for {sum(checks)} of {len(checks)} sets, the rule keeps one equation of each plane, for {differing} of "
-    message += f"them in another order than the listing, and for {consecutive} it removes consecutive equations"
+    message = f"for {sum(checks)} of {len(checks)} sets, one of them fixed, the rule keeps one equation of each plane, "
+    message += f"for {differing} in another order than the listing; for {consecutive}, it removes successive equations"
     return searched(LATTICE_SETS[3], cases, [*checks, differing, consecutive], message)
 
 

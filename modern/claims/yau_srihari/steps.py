@@ -48,7 +48,7 @@ def simple_with_a_tunnel() -> Check:
     solid = counterexample_points("tunnel.csv")
     # The vertices, edges, sides and voxels of the solid by their topological coordinates.
     euler = sum((-1) ** sum(c % 2 for c in cell) for cell in moved(solid, (0, 1, 2), 2))
-    message = f"the solid is simple, but has the Euler number {euler}; solids without holes have 1"
+    message = f"the solid is simple, but has the Euler number {euler}; solids without tunnels and cavities have 1"
     return refuted(is_simple(array_of(solid)) and euler == 0, message)
 
 
