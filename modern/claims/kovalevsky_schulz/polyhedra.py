@@ -132,7 +132,8 @@ def cells_removed(cases: int = CASES) -> Check:
 
 @claim("kovalevsky-schulz.52")
 def cube_visible_from_corner() -> Check:
-    judge, after = exact_hull(product((0, 2), repeat=3)), exact_hull([*product((0, 2), repeat=3), (3, 3, 3)])
+    cube = [*product((0, 2), repeat=3)]
+    judge, after = exact_hull(cube), exact_hull([*cube, (3, 3, 3)])
     visible = {f for f in judge.facets if plane_value(f.plane, (3, 3, 3)) > 0}
     edges = {frozenset(e) for e in judge.edges() if sum({*e} <= {*f.polygon} for f in visible) == 2}
     planes = {f.plane for f in judge.facets} - {f.plane for f in after.facets}

@@ -69,7 +69,8 @@ def _size(cells: CellList) -> int:
 def integers_of_table_4() -> Check:
     faces, vertices, integers = numbers_in(corrected_print("kovalevsky-schulz")["table4-hull"][0])
     # Euler's formula gives the number of edges, each of which is on two faces.
-    exact = 3 * vertices + 2 * (edges := vertices + faces - 2)
+    edges = vertices + faces - 2
+    exact = 3 * vertices + 2 * edges
     counted = all(economical_size(c) == 3 * len(c.vertices) + 2 * len(c.edges) for c in chain(*_bodies()))
     check = exhibited(cell_list_size(vertices, faces) == integers, f"{integers} is the value of formula (6)")
     case = f"the cell list itself: {vertices} vertices and {faces} faces have {edges} edges and need {exact} integers"

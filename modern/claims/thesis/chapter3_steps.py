@@ -191,7 +191,7 @@ def planes_i_and_m() -> Check:
 @claim("thesis.98", full=300)
 def planes_of_same_points(cases: int = CASES) -> Check:
     check = new_planes(cases)
-    return replace(check, message=f"{check.message}; it would miss {orders_of_program_3(cases)}")
+    return replace(check, message=f"{check.message}; the rule would miss {orders_of_program_3(cases)}")
 
 
 def orders_of_program_3(cases: int = CASES) -> str:

@@ -72,10 +72,10 @@ def error_in_program(cases: int = CASES) -> Check:
 @claim("thesis.282", full=300)
 def message_after_wrong_hull(cases: int = 1) -> Check:
     options = Options(numbers=numbers("exact"), limit=30_000)
-    right = []
+    right, layers = [], {"program2": ("corrected",)}
     # Program 1 punches the line for two or three points.
     for given in (s.points[:size] for s in flat_and_spatial_sets(cases) for size in (2, 3, None)):
-        run = run_hull(deck_with(given), lambda n: programs.program(n, ("corrected",) * (n == "program2")), options)
+        run = run_hull(deck_with(given), lambda name: programs.program(name, layers.get(name, ())), options)
         hull, points = read_hull(run.final.result.punched), [tuple(map(Fraction, point)) for point in given]
         if _is_announced(run):
             difference = disagreement(from_cards("run", run, points), from_judge(exact_hull(given), points), points)

@@ -12,7 +12,7 @@ from modern.papers.yau_srihari.search import Search
 
 
 def combination_above() -> Step:
-    """Return the step: a mean of points on or above a graph is on or above that of the graph points below them."""
+    """Return the step: a mean of points on or above a graph is on or above the same mean of graph points below them."""
     m, z_1, z_2, floor_1, floor_2 = variables("m z_1 z_2 floor_1 floor_2")
     points = {"first": not_negative(z_1 - floor_1), "second": not_negative(z_2 - floor_2)}
     return Step(
